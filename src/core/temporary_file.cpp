@@ -28,9 +28,9 @@ constexpr int kTries = 100;  // of names that nobody has
 std::string random_name() {
   std::uint64_t number = 0;
   if (getrandom(&number, sizeof number, 0) != sizeof number) number = std::uint64_t(getpid());
-  constexpr char kLetters[] = "0123456789abcdefghijklmnopqrstuv";
+  constexpr char kSigns[] = "0123456789abcdefghijklmnopqrstuv";
   std::string name;
-  for (int i = 0; i < 12; ++i, number >>= 5) name += kLetters[number & 31];
+  for (int i = 0; i < 12; ++i, number >>= 5) name += kSigns[number & 31];
   return name;
 }
 

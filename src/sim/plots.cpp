@@ -12,15 +12,17 @@
 namespace chainreel {
 namespace {
 
-// The title of a plot of lambda, behind which its units come with the constraints.
-const std::string kMultipliers = "lambda";
+// Titles of plots whose units come with the constraints.
+const std::string kMultipliers = "lambda", kMissed = "constraint error";
 
-// "lambda [N, N m]"
-std::string title_of_multipliers(const Simulation& simulation) {
+// "lambda [N, N m]", "constraint error [m]": a row of lengths bears forces, one of angles torques.
+std::string with_row_units(const std::string& title, const Simulation& simulation) {
   std::vector<std::string> units;
-  for (const std::string& unit : multiplier_units(simulation.chain, simulation.constraints.list))
+  for (const std::string& force : multiplier_units(simulation.chain, simulation.constraints.list)) {
+    const std::string unit = title == kMultipliers ? force : force == "N" ? "m" : force == "N m" ? "rad" : "";
     if (!unit.empty() && std::find(units.begin(), units.end(), unit) == units.end()) units.push_back(unit);
-  return units.empty() ? kMultipliers : kMultipliers + " [" + joined(units) + "]";
+  }
+  return units.empty() ? title : title + " [" + joined(units) + "]";
 }
 
 // Whether all joints turn, or all slide: what their numbers are.
@@ -72,7 +74,7 @@ std::string title_of(PlotQuantity quantity, const Chain& chain) {
     case PlotQuantity::lambda:
       return kMultipliers;
     case PlotQuantity::constraint_error:
-      return "constraint error [m, rad]";
+      return kMissed;
     case PlotQuantity::expression:
       break;
   }
@@ -249,7 +251,7 @@ std::vector<PlotCurves> plot_curves(const PlotSet& plots, const Simulation& simu
     all.push_back(curves_of(plot, plots, simulation, trajectory, samples));
     all.back().quantity = plot.quantity;
     all.back().formula = plot.formula;
-    all.back().title = plot.title == kMultipliers ? title_of_multipliers(simulation) : plot.title;
+    all.back().title = plot.title == kMultipliers || plot.title == kMissed ? with_row_units(plot.title, simulation) : plot.title;
     all.back().angles = plot.quantity == PlotQuantity::q && units_of(simulation.chain) == JointUnits::turning;
   }
   return all;

@@ -136,6 +136,28 @@ TEST(SweepTable, OfSeveralKindsIsTheSameTableComputedOnce) {
   EXPECT_EQ(sweep(csv, with(kGrid, {"-o", folder.file("b.csv"), "--shard", "1/2"})).status, 2);
 }
 
+// Which run has the largest peak, also where rows were done before, and which runs pass limits of their joints.
+TEST(SweepTable, SaysWhereItsPeaksAreLargestAndWhoPassesLimits) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("arm.yaml", "model: {links: [0.5, 0.4], masses: [2, 1], efforts: 3}\nduration: 0.5\nmethod: rk4\nstep: 0.01\n"
+                                                     "parameters: {F: 1}\ntorque: [F, 0]\n");
+  const std::string csv = folder.file("a.csv");
+  const auto swept = [&](const Words& more = {}) {
+    return run_program(with({"sweep", scene, "-o", csv, "--over", "parameters.F=1,-4,2", "--over", "start.q.2=0,\"90deg\"", "--peaks", "tau"}, more));
+  };
+  const ProgramResult first = swept();
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(first.out, AllOf(HasSubstr("largest tau1 [N m]: -4, in run 2: "), HasSubstr("parameters.F=-4")));
+  EXPECT_THAT(first.err, HasSubstr("2 of 6 rows pass limits of joints"));
+  const std::vector<std::string> lines = lines_of(csv);
+  for (std::size_t run = 0; run < 6; ++run)
+    EXPECT_EQ(lines[4 + run].find("limits: joint 'joint1' passed its effort limit 3 with") != std::string::npos, run == 2 || run == 3) << lines[4 + run];
+  EXPECT_THAT(swept().out, AllOf(HasSubstr("6 of them done before"), HasSubstr("largest tau1 [N m]: -4, in run 2: ")));
+  const Json told = parse_json(swept({"--json"}).out)["outputs"][0]["largest"];
+  EXPECT_EQ(told[0]["value"], -4.0);
+  EXPECT_EQ(told[0]["run"], 2);
+}
+
 TEST(SweepTable, HasThePeaksOfTheRunsByThemselves) {
   const TemporaryFolder folder;
   const Words set{"--set", "duration=1", "--set", "torque=[0.5 * sin(7 * t), -0.2]", "--set", "method=rk4", "--set", "step=0.1ms"};

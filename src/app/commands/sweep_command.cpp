@@ -373,11 +373,16 @@ void run_sweep(SweepOptions options) {
   SweepOutcome worst;
   const auto tell = [&](const std::string& path, const SweepOutcome& outcome) {
     throw_if_interrupted();
-    report["outputs"].push_back({{"file", path}, {"done_before", outcome.skipped}, {"failed", outcome.failed}});
+    report["outputs"].push_back({{"file", path}, {"done_before", outcome.skipped}, {"failed", outcome.failed}, {"largest", Json::array()}});
+    for (const SweepPeak& one : outcome.largest)
+      report["outputs"].back()["largest"].push_back({{"column", one.column}, {"value", one.value}, {"run", one.run}, {"set", grid.settings(one.run)}});
     written.push_back(path);
     if (!options.common.json && !options.common.quiet)
       std::printf("%s: %d runs, %zu of them done before, %zu failed\n", path.c_str(), runs.behind - runs.first, outcome.skipped,
                   outcome.failed);
+    if (!options.common.json && !options.common.quiet && written.size() == 1)
+      for (const SweepPeak& one : outcome.largest)
+        std::printf("largest %s: %s, in run %zu: %s\n", one.column.c_str(), format_significant(one.value, 6).c_str(), one.run, joined(grid.settings(one.run), " ").c_str());
     if (outcome.failed > worst.failed) worst = outcome;
     if (outcome.beyond_limits > 0 && written.size() == 1 && !options.common.quiet)
       std::fprintf(stderr, "note: %s: %zu of %zu rows pass limits of joints: their column `trouble` names them\n", path.c_str(), outcome.beyond_limits,

@@ -37,7 +37,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kRunsOfPiece = 16;  // that a thread takes at a time
-const std::string kDoubtful = "doubtful: ", kLimits = "limits: ";
 
 std::vector<std::string> settings_of(const std::vector<std::string>& overrides, const Grid& grid, std::size_t run) {
   std::vector<std::string> all = overrides;
@@ -277,42 +276,6 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& c
 }
 
 // Where the comma behind the cell that begins there stands; commas in quotes are none.
-std::size_t end_of_cell(const std::string& row, std::size_t begin) {
-  bool is_quoted = false;
-  for (; begin < row.size() && (is_quoted || row[begin] != ','); ++begin) is_quoted = is_quoted != (row[begin] == '"');
-  return begin;
-}
-
-// Counts what failed or is doubtful, and keeps what the first that failed in the grid's order says.
-class Failures {
- public:
-  explicit Failures(const Grid& grid) : grid_(grid) {}
-
-  void look(const std::string& row) {
-    std::size_t comma = end_of_cell(row, 0);
-    for (std::size_t k = 0; k < grid_.axes().size() && comma < row.size(); ++k) comma = end_of_cell(row, comma + 1);
-    if (comma >= row.size()) return;
-    const std::lock_guard guard(lock_);
-    if (row.find("," + csv_words(kDoubtful).substr(0, kDoubtful.size())) != std::string::npos) ++outcome_.doubtful;
-    if (row.find(kLimits, row.rfind(",\"")) != std::string::npos) ++outcome_.beyond_limits;
-    if (row.compare(comma, 3, ",0,") != 0) return;
-    ++outcome_.failed;
-    const std::size_t run = std::strtoull(row.c_str(), nullptr, 10);
-    if (outcome_.failed > 1 && run > first_) return;
-    first_ = run;
-    const std::size_t quote = row.rfind(",\"");
-    outcome_.first_failure = joined(grid_.settings(run), " ") + ": " +
-                             (quote == std::string::npos ? row.substr(comma + 3) : row.substr(quote + 2, row.size() - quote - 3));
-  }
-
-  SweepOutcome outcome() const { return outcome_; }
-
- private:
-  const Grid& grid_;
-  std::mutex lock_;
-  std::size_t first_ = 0;
-  SweepOutcome outcome_;
-};
 
 }  // namespace
 
@@ -358,8 +321,8 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   Copies copies(job);
   GrowingTable table(path, head_of(job, first, simulation.chain, peaks), std::size_t(job.runs.first),
                      std::size_t(job.runs.behind - job.runs.first), job.overwrite);
-  Failures failures(job.grid);
-  table.for_each_before([&](const std::string& row) { failures.look(row); });
+  SeenRows seen(job.grid, peaks, std::size_t(std::count(states.begin(), states.end(), ',')) + 2);
+  table.for_each_before([&](const std::string& row) { seen.look(row); });
   SweepOutcome outcome;
   outcome.skipped = table.rows_before();
   const std::size_t begin = std::size_t(job.runs.first) + outcome.skipped, behind = std::size_t(job.runs.behind);
@@ -375,7 +338,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
         for (std::size_t run = from; run < until; ++run) {
           throw_if_interrupted();
           const std::string row = maker->row(run);
-          failures.look(row);
+          seen.look(row);
           rows += row + "\n";
         }
         table.take(piece, rows);
@@ -399,12 +362,10 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
       });
   }
   if (table_format_of(path) == TableFormat::csv) copies.write(read_plain_file(path, kLargestGrown));
-  const SweepOutcome seen = failures.outcome();
-  outcome.failed = seen.failed;
-  outcome.doubtful = seen.doubtful;
-  outcome.beyond_limits = seen.beyond_limits;
-  outcome.first_failure = seen.first_failure;
-  return outcome;
+  SweepOutcome all = seen.outcome();
+  all.done = outcome.done;
+  all.skipped = outcome.skipped;
+  return all;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/sweep_rows.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/works/part.hpp"
 #include "scene/run/grid.hpp"
@@ -21,14 +22,6 @@ struct SweepTableJob {
   bool overwrite = false;
   bool quiet = false;
   std::vector<MotionColumn> peaks;  // see app/report/peaks
-};
-
-struct SweepOutcome {
-  std::size_t done = 0, skipped = 0;  // skipped: a former run of the program has done them
-  std::size_t failed = 0;
-  std::size_t doubtful = 0;  // rows of a table that say so
-  std::size_t beyond_limits = 0;  // rows whose runs pass limits of joints
-  std::string first_failure;  // "torque.1=5: diverged at .."
 };
 
 // Throws Error where the keys themselves lead nowhere, whatever their values: said once, not of each run.

@@ -113,7 +113,7 @@ const std::vector<JsonReport>& json_reports() {
                                   {"threads", "how many"},
                                   {"rows", "[[{failed, status, energy_error, energy_scale, stable_by_theory, trouble}]], from below"},
                                   {"failed", "how many cells. Without --x and --y: methods, left_out and start, the motion linearised there"}})},
-      {"sweep", with(kFiles, {{"runs", "how many"}, {"outputs", "[{file, done_before, failed}]"}, {"failed", "how many runs"}})},
+      {"sweep", with(kFiles, {{"runs", "how many"}, {"outputs", "[{file, done_before, failed, largest}]; largest [{column, value, run, set}] of a table's peaks"}, {"failed", "how many runs"}})},
       {"fall", with(kFiles, {{"scene, duration, method", "what ran"},
                              {"set", "what --set says of it"},
                              {"key", "of --sweep; or null"},

@@ -194,6 +194,27 @@ std::string control_notation(const Control& control) {
   return sum.empty() ? "0" : sum;
 }
 
+namespace {
+
+// "400", or "diag(50, 0)" of gains that are not the same along all axes.
+std::string gain_notation(const std::vector<double>& gains) {
+  if (std::adjacent_find(gains.begin(), gains.end(), std::not_equal_to<>()) == gains.end()) return format_significant(gains.front(), 4);
+  std::vector<std::string> numbers;
+  for (const double gain : gains) numbers.push_back(format_significant(gain, 4));
+  return "diag(" + list_of(numbers, numbers.size()) + ")";
+}
+
+// "F = 400 (x_{ref} - x) + 40 (xd_{ref} - xd)": what a spring and a damper at the end effector pull with.
+std::string task_notation(const TaskFeedback& task) {
+  const auto is_there = [](const std::vector<double>& gains) { return std::any_of(gains.begin(), gains.end(), [](double gain) { return gain != 0; }); };
+  std::string force;
+  if (is_there(task.kp)) force = gain_notation(task.kp) + " (x_{ref} - x)";
+  if (is_there(task.kd)) force += (force.empty() ? "" : " + ") + gain_notation(task.kd) + " (xd_{ref} - xd)";
+  return force.empty() ? "" : "F = " + force;
+}
+
+}  // namespace
+
 std::string resistance_notation(const Chain& chain) {
   std::vector<std::string> damping, friction;
   for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
@@ -220,7 +241,11 @@ std::string resistance_notation(const Chain& chain) {
 
 std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque,
                                           const std::optional<Control>& control) {
-  if (control) return {"tau = " + control_notation(*control), "tau = tau(t, q, qd)"};
+  if (control) {
+    const std::string sum = "tau = " + control_notation(*control), force = control->task ? task_notation(*control->task) : "";
+    if (!force.empty()) return {sum + ", " + force, sum, "tau = tau(t, q, qd)"};
+    return {sum, "tau = tau(t, q, qd)"};
+  }
   std::vector<std::string> entries;
   for (const TorqueEntry& entry : torque) {
     entries.push_back(entry.control ? control_notation(*entry.control) : conditional_notation(entry.text).value_or(entry_notation(entry.text)));

@@ -1,0 +1,69 @@
+#include "app/commands/sweep_rows.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "core/csv.hpp"
+#include "core/format.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr std::size_t kOfTheEnd = 4;  // columns behind those of the grid: good, status, end_time, ended_by
+
+// Where the cell that begins there ends, at a comma or the row's end.
+std::size_t end_of_cell(const std::string& row, std::size_t begin) {
+  bool is_quoted = false;
+  for (; begin < row.size() && (is_quoted || row[begin] != ','); ++begin) is_quoted = is_quoted != (row[begin] == '"');
+  return begin;
+}
+
+// The comma behind so many more cells.
+std::size_t skip_cells(const std::string& row, std::size_t comma, std::size_t count) {
+  for (std::size_t k = 0; k < count && comma < row.size(); ++k) comma = end_of_cell(row, comma + 1);
+  return comma;
+}
+
+}  // namespace
+
+void SeenRows::look(const std::string& row) {
+  const std::size_t run = std::strtoull(row.c_str(), nullptr, 10);
+  const std::size_t comma = skip_cells(row, end_of_cell(row, 0), grid_.axes().size());
+  if (comma >= row.size()) return;
+  const std::lock_guard guard(lock_);
+  if (row.find("," + csv_words(kDoubtful).substr(0, kDoubtful.size())) != std::string::npos) ++outcome_.doubtful;
+  if (row.find(kLimits, row.rfind(",\"")) != std::string::npos) ++outcome_.beyond_limits;
+  look_at_peaks(row, run, skip_cells(row, comma, kOfTheEnd + before_));
+  // What the first that failed in the grid's order says is kept.
+  if (row.compare(comma, 3, ",0,") != 0) return;
+  ++outcome_.failed;
+  if (outcome_.failed > 1 && run > first_) return;
+  first_ = run;
+  const std::size_t quote = row.rfind(",\"");
+  outcome_.first_failure = joined(grid_.settings(run), " ") + ": " +
+                           (quote == std::string::npos ? row.substr(comma + 3) : row.substr(quote + 2, row.size() - quote - 3));
+}
+
+void SeenRows::look_at_peaks(const std::string& row, std::size_t run, std::size_t comma) {
+  for (std::size_t i = 0; i < peaks_.size() && comma < row.size(); ++i) {
+    const std::size_t end = end_of_cell(row, comma + 1);
+    const std::optional<double> value = parse_number(std::string_view(row).substr(comma + 1, end - comma - 1));
+    comma = end;
+    if (!value) continue;
+    SweepPeak& largest = largest_[i];
+    const double more = std::fabs(*value) - std::fabs(largest.value);
+    if (has_peak_[i] && !(more > 0 || (more == 0 && run < largest.run))) continue;
+    has_peak_[i] = true;
+    largest = {peaks_[i], *value, run};
+  }
+}
+
+SweepOutcome SeenRows::outcome() const {
+  SweepOutcome outcome = outcome_;
+  for (std::size_t i = 0; i < peaks_.size(); ++i)
+    if (has_peak_[i]) outcome.largest.push_back(largest_[i]);
+  return outcome;
+}
+
+}  // namespace chainreel
