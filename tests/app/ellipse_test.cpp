@@ -269,6 +269,16 @@ TEST(EllipseSweep, GivesAnExampleThatTheModelTakes) {
   }
 }
 
+TEST(EllipseCommand, TitlesAreFormulasOrRefused) {
+  const TemporaryFolder folder;
+  const auto titled = [&](const char* title) {
+    return run_program({"ellipse", "models/rr.urdf", "--pose", "0,1", "--title", title, "--width", "320", "--height", "180", "--force", "--quiet", "-o", folder.file("a.svg")});
+  };
+  EXPECT_EQ(titled("$\\Lambda$ for \\$5").status, 0);
+  EXPECT_THAT(titled("$\\foo$").err, HasSubstr("\\foo is not known"));
+  EXPECT_THAT(titled("$col{a; b}$").err, HasSubstr("no room in a line"));
+}
+
 // A point at the end effector weighs the same in each direction: Lambda' = J^-T (M + m J^T J) J^-1 = Lambda + m.
 TEST(PayloadCommand, AddsItsMassToLambdaInEachDirection) {
   const auto lambda = [](const std::vector<std::string>& more) {

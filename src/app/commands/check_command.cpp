@@ -326,7 +326,7 @@ void add_check_command(CommandLine& app) {
   command->footer("Of a film or picture all files that the audit tells of are held against their SHA-256, and the audit against what the film\n"
                   "remembers: exit code 1 where one was changed since, or is gone. With --today it is asked whether the scene, its model and meshes and\n"
                   "the program of today would make the same film, with the --set that its audit tells and what is given besides: exit code 1 and what has changed where they would\n"
-                  "not. It is simulated, not drawn.\n"
+                  "not; 3 where of one of several it cannot be told, whatever comes of the others. It is simulated, not drawn.\n"
                   "Example: chainreel check rr_free --set method=rk4\n"
                   "or, behind `chainreel render rr_free`: chainreel check out/rr_free.mp4\n"
                   "                                       chainreel check out/ --today");

@@ -23,6 +23,7 @@
 #include "draw/page/house_style.hpp"
 #include "draw/page/sheet.hpp"
 #include "model/read_chain.hpp"
+#include "picture/formula_words.hpp"
 #include "scene/text/read_scene.hpp"
 
 namespace chainreel {
@@ -213,6 +214,7 @@ EllipseJob job_of(const EllipseOptions& options) {
   const GatheredPoses& poses = job.motion.poses;
   PoseFigureOptions& figure = job.figure;
   if (!options.title.empty()) figure.title = options.title;
+  require_formulas(figure.title, true);
   if (options.width > 0) figure.width = options.width;
   if (options.height > 0) figure.height = options.height;
   figure.reading = options.read_as(job.motion);
