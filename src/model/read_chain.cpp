@@ -11,6 +11,12 @@
 namespace chainreel {
 namespace {
 
+std::string near_link(const std::string& name, const Chain& chain) {
+  std::vector<std::string> names;
+  for (const Frame& known : chain.frames) names.push_back(known.name);
+  return near_name(name, names);
+}
+
 int end_effector_of(const Chain& chain, const ModelOptions& options, const UrdfFile& file) {
   if (options.end_effector.empty()) {
     const int gripper = find_frame(chain, "gripper");
@@ -19,12 +25,10 @@ int end_effector_of(const Chain& chain, const ModelOptions& options, const UrdfF
   }
   const int frame = find_frame(chain, options.end_effector);
   if (frame >= 0) return frame;
-  std::vector<std::string> names;
-  for (const Frame& known : chain.frames) names.push_back(known.name);
-  const std::string near = near_name(options.end_effector, names);
+  const std::string near = near_link(options.end_effector, chain);
   throw Error(ExitCode::bad_input,
               "has no link '" + options.end_effector + "' that could be the end effector:" +
-                  (near.empty() ? " its last link is '" + names.back() + "'" : near),
+                  (near.empty() ? " its last link is '" + chain.frames.back().name + "'" : near),
               file.at(0));
 }
 
@@ -63,12 +67,10 @@ void find_point_masses(Chain& chain, const ModelOptions& options) {
 void carry(Chain& chain, const Payload& payload, const UrdfFile& file) {
   if (!(payload.mass > 0)) return;
   const int index = payload.link.empty() ? chain.end_effector : find_frame(chain, payload.link);
-  std::vector<std::string> names;
-  for (const Frame& known : chain.frames) names.push_back(known.name);
   if (index < 0 && payload.link.empty())
     throw Error(ExitCode::bad_input, "has several ends, so that `payload` must say which carries it: payload.link, or end_effector", file.at(0));
   if (index < 0)
-    throw Error(ExitCode::bad_input, "'payload.link' names no link: '" + payload.link + "'" + near_name(payload.link, names), file.at(0));
+    throw Error(ExitCode::bad_input, "'payload.link' names no link: '" + payload.link + "'" + near_link(payload.link, chain), file.at(0));
   const Frame& frame = chain.frames[std::size_t(index)];
   if (frame.body == 0)
     throw Error(ExitCode::bad_input, "link '" + frame.name + "' stands on the ground and does not move, so that a payload there does nothing: name another, payload.link", file.at(0));

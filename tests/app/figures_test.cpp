@@ -86,5 +86,12 @@ TEST(Ellipse, WantsAsManyNumbersAsTheChainHasJoints) {
   EXPECT_THAT(result.err, HasSubstr("--pose 0,1,2 has 3 numbers"));
 }
 
+TEST(Sheet, OfNextToNoWidthIsRefusedAndDoesNotHang) {
+  const TemporaryFolder folder;
+  const ProgramResult run = run_program({"sheet", "assets/scenes/pp_free.yaml", "--at", "0,1", "--width", "16", "--height", "16384", "-o", folder.file("a.png")});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, testing::HasSubstr("are too small on this page"));
+}
+
 }  // namespace
 }  // namespace chainreel

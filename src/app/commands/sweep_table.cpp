@@ -176,10 +176,8 @@ class RowMaker {
   static std::string limits_of(const Scene& scene, const Trajectory& run) {
     constexpr std::size_t kMostNamed = 3;
     std::string words;
-    for (std::size_t i = 0; i < std::min(run.limits.size(), kMostNamed); ++i) {
-      const bool is_cut = scene.limit == LimitPolicy::clamp && run.limits[i].quantity == "effort";
-      words += (words.empty() ? kLimits : "; ") + to_string(run.limits[i]) + (is_cut ? ", and is cut there" : "");
-    }
+    for (std::size_t i = 0; i < std::min(run.limits.size(), kMostNamed); ++i)
+      words += (words.empty() ? kLimits : "; ") + limit_note(run.limits[i], scene.limit);
     if (run.limits.size() > kMostNamed) words += "; and " + std::to_string(run.limits.size() - kMostNamed) + " more";
     return words;
   }
@@ -274,8 +272,6 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& c
   for (const EventEntry& event : first.events) head += "," + csv_words(event.title() + " [s]");
   return head + ",trouble\n";
 }
-
-// Where the comma behind the cell that begins there stands; commas in quotes are none.
 
 }  // namespace
 

@@ -57,7 +57,6 @@ class Missing : public tinyxml2::XMLVisitor {
       look_at_style(text.Value());
     return true;
   }
-  bool Visit(const tinyxml2::XMLUnknown&) override { return true; }
   bool Visit(const tinyxml2::XMLDeclaration& declaration) override {
     if (std::string_view(declaration.Value()).starts_with("xml-stylesheet")) say_outside("a style sheet");
     return true;

@@ -179,8 +179,18 @@ std::vector<std::string> warning_lines(const FilmReport& report) {
   return lines;
 }
 
+namespace {
+
+bool is_cut(const LimitEvent& limit, LimitPolicy policy) { return policy == LimitPolicy::clamp && limit.quantity == "effort"; }
+
+}  // namespace
+
+std::string limit_note(const LimitEvent& limit, LimitPolicy policy) {
+  return to_string(limit) + (is_cut(limit, policy) ? ": by limit: clamp, torques beyond it are cut" : "");
+}
+
 std::string limit_words(const LimitEvent& limit, LimitPolicy policy) {
-  if (policy == LimitPolicy::clamp && limit.quantity == "effort") return "is asked for more than its limit of effort: the torque is cut to that";
+  if (is_cut(limit, policy)) return "is asked for more than its limit of effort: the torque is cut to that";
   return "passes its limit of " + limit.quantity;
 }
 
@@ -196,8 +206,7 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajector
       notes.push_back(std::to_string(limits.size() - i) + " more limits are passed: see `limits_passed` of --json");
       break;
     }
-    const bool is_cut = scene.limit == LimitPolicy::clamp && limits[i].quantity == "effort";
-    notes.push_back(to_string(limits[i]) + (is_cut ? ": by limit: clamp, torques beyond it are cut" : ""));
+    notes.push_back(limit_note(limits[i], scene.limit));
   }
   for (const int event : trajectory.events.from_start)
     notes.push_back("event '" + scene.events[std::size_t(event)].title() + "' holds at t = 0 already: instants are those at which it begins again");

@@ -81,6 +81,8 @@ void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bo
 std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajectory& trajectory);
 // "passes its limit of effort", or that the torque is cut there.
 std::string limit_words(const LimitEvent& limit, LimitPolicy policy);
+// In a sentence with its numbers, and what comes of it.
+std::string limit_note(const LimitEvent& limit, LimitPolicy policy);
 
 // For how long the first frame is held: whole frames, s.
 double held_first(const Scene& scene);

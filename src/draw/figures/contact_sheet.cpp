@@ -55,7 +55,8 @@ PageTitle page_title(const ContactSheetLook& look) {
       is_narrow = is_narrow && line_of(word).advance <= width;
     }
     title.lines.push_back(line_of(words));
-    if (is_narrow && int(title.lines.size()) <= kMostTitleLines) return title;
+    const bool fits = is_narrow && int(title.lines.size()) <= kMostTitleLines;
+    if (fits || title.size < kNoWords) return title;  // on a page of next to no width nothing fits
   }
 }
 
