@@ -25,7 +25,7 @@ int run(int argc, char** argv, void (*add_commands)(CommandLine&)) {
           ".\nWhat scenes may say, methods, constraints, outputs: chainreel help\n"
           "Example: chainreel render rr_free");
   app.add_choice("--gl", "CHAINREEL_GL", words_of(names_of(GlBackend{})),
-                 "where OpenGL comes from: auto takes OSMesa, else EGL; the bytes are the same",
+                 "where OpenGL comes from, and whether it is needed: the bytes are the same",
                  [](const std::string& word) { choose_gl_backend(*value_named<GlBackend>(word)); });
   add_commands(app);
   return app.run(argc, argv);

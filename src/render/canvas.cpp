@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include "core/machine.hpp"
 #include "render/batch.hpp"
 #include "render/changes.hpp"
+#include "render/gl_backend.hpp"
 #include "render/gl_painter.hpp"
 #include "render/glyph_atlas.hpp"
 #include "render/renderer_pins.hpp"
@@ -41,10 +43,17 @@ std::uint32_t* pixels_of(Image& image) {
   return reinterpret_cast<std::uint32_t*>(image.bgra.data());
 }
 
+// A colour multiplied by its opacity, as OpenGL clears a page with it: halves become even.
+std::uint32_t pixel_of(const Color& color) {
+  const auto level = [&color](double c) { return std::uint32_t(std::nearbyint(float(color.a * c / 255) * 255.0F)); };
+  return level(255) << 24 | level(color.r) << 16 | level(color.g) << 8 | level(color.b);
+}
+
 }  // namespace
 
 struct Canvas::State {
   int width, height;
+  PageUse use = PageUse::film;
   std::optional<ComingRenderer> coming;  // none where the static layer is another canvas's
   std::unique_ptr<GlPainter> gl;
   WindowPainter painter;
@@ -60,9 +69,11 @@ struct Canvas::State {
   Image translucent;  // the page where its background is, premultiplied; otherwise it is the frame's image
   CanvasFrame frame;
 
-  State(int w, int h, std::optional<ComingRenderer> with, std::shared_ptr<const StaticLayer> layer, const Fonts& fonts)
+  State(int w, int h, PageUse what_for, std::optional<ComingRenderer> with, std::shared_ptr<const StaticLayer> layer,
+        const Fonts& fonts)
       : width(w),
         height(h),
+        use(what_for),
         coming(std::move(with)),
         painter(w, h),
         solid_layer(w, h),
@@ -76,13 +87,14 @@ struct Canvas::State {
 
   PixelBox whole() const { return {0, 0, width, height}; }
 
-  GlPainter& opengl() {
-    if (gl) return *gl;
+  // None where pages are filled in memory.
+  GlPainter* opengl() {
+    if (gl) return gl.get();
     // What failed once is tried anew by who draws again.
     std::optional<ComingRenderer> one;
     std::swap(one, coming);
-    gl = one ? one->arrived() : ComingRenderer(width, height).arrived();
-    return *gl;
+    gl = one ? one->arrived() : ComingRenderer(width, height, use).arrived();
+    return gl.get();
   }
 
   void set(const Picture& picture) {
@@ -119,24 +131,33 @@ struct Canvas::State {
     solid_layer.draw(placed[std::size_t(piece.instance)], body_paint(piece), boxes, pixels_of(page));
   }
 
-  // The batch by OpenGL, the whole page.
+  // The batch, the whole page.
   void draw_whole(const Color& background, Image& page) {
     changed.fill();
     windows.set(batch, changed);
-    GlPainter& by = opengl();
-    by.draw(background, windows, batch, atlas, [&](const Run& run) {
+    if (GlPainter* const by = opengl(); by != nullptr) return draw_by(*by, background, page);
+    std::fill_n(pixels_of(page), std::size_t(width) * std::size_t(height), pixel_of(background));
+    draw_in_memory(page);
+  }
+
+  void draw_by(GlPainter& opengl, const Color& background, Image& page) {
+    opengl.draw(background, windows, batch, atlas, [&](const Run& run) {
       const std::vector<PixelBox> boxes = boxes_of_solids(run);
-      by.read(boxes, page);
+      opengl.read(boxes, page);
       draw_solids(run, boxes, page);
-      by.write(boxes, page);
+      opengl.write(boxes, page);
     });
-    by.read({whole()}, page);
+    opengl.read({whole()}, page);
   }
 
   // What of the batch lies in the changed tiles, over the static layer.
   void draw_changed(Image& page) {
     windows.set(batch, changed);
     copy(static_layer->pixels, frame.changed, page);
+    draw_in_memory(page);
+  }
+
+  void draw_in_memory(Image& page) {
     for (const Run& run : windows.runs())
       if (run.primitive == Primitive::solids)
         draw_solids(run, boxes_of_solids(run), page);
@@ -162,9 +183,14 @@ struct Canvas::State {
   }
 };
 
-ComingRenderer::ComingRenderer(int width, int height, const std::function<void()>& before) : width_(width), height_(height) {
+ComingRenderer::ComingRenderer(int width, int height, PageUse use, const std::function<void()>& before)
+    : width_(width), height_(height), use_(use) {
   require_page(width, height);
   settle_environment();
+  if (!opengl_draws(use)) {
+    if (before) before();
+    return;
+  }
   painter_ = std::async(std::launch::async | std::launch::deferred, [width, height, before] {
     if (before) before();
     auto painter = std::make_unique<GlPainter>(width, height);
@@ -178,23 +204,25 @@ ComingRenderer& ComingRenderer::operator=(ComingRenderer&&) noexcept = default;
 ComingRenderer::~ComingRenderer() = default;
 
 std::unique_ptr<GlPainter> ComingRenderer::arrived() {
-  return painter_.get();
+  return painter_.valid() ? painter_.get() : nullptr;
 }
 
-Canvas::Canvas(int width, int height, const Fonts& fonts) : Canvas(ComingRenderer(width, height), fonts) {}
+Canvas::Canvas(int width, int height, const Fonts& fonts, PageUse use) : Canvas(ComingRenderer(width, height, use), fonts) {}
 
 Canvas::Canvas(ComingRenderer renderer, const Fonts& fonts) {
   const int width = renderer.width_, height = renderer.height_;
-  state_ = std::make_unique<State>(width, height, std::move(renderer), nullptr, fonts);
+  const PageUse use = renderer.use_;
+  state_ = std::make_unique<State>(width, height, use, std::move(renderer), nullptr, fonts);
 }
 
 Canvas::Canvas(std::shared_ptr<const StaticLayer> layer, const Fonts& fonts)
-    : state_(std::make_unique<State>(layer->pixels.width, layer->pixels.height, std::nullopt, layer, fonts)) {}
+    : state_(std::make_unique<State>(layer->pixels.width, layer->pixels.height, PageUse::film, std::nullopt, layer, fonts)) {}
 
 Canvas::~Canvas() = default;
 
 RendererInfo Canvas::info() const {
-  return state_->opengl().info();
+  const GlPainter* const opengl = state_->opengl();
+  return opengl != nullptr ? opengl->info() : RendererInfo{"none", "chainreel", "none"};
 }
 
 void Canvas::set_static_layer(const Picture& picture) {
@@ -214,7 +242,7 @@ std::shared_ptr<const StaticLayer> Canvas::static_layer() const {
 
 const CanvasFrame& Canvas::draw(const Picture& picture) {
   State& s = *state_;
-  if (!s.static_layer && picture.fixed > 0) {
+  if (!s.static_layer && picture.fixed > 0 && opengl_draws(s.use)) {
     set_static_layer(picture.part(0, picture.fixed));
     draw(picture.part(picture.fixed, picture.items.size()));
     s.static_layer.reset();

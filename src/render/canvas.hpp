@@ -1,5 +1,5 @@
 // Shapes to pixels: what lies under a film by an off-screen OpenGL context and the shader pairs of shaders/, what moves over
-// it in memory, with the same bytes. Not shared between threads.
+// it, and a picture by itself, in memory, with the same bytes. Not shared between threads.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,14 @@
 namespace chainreel {
 
 struct RendererInfo {
-  std::string backend;   // "OSMesa"
+  std::string backend;   // "OSMesa"; "none" where pages are filled in memory
   std::string renderer;  // GL_RENDERER, alike on all processors
-  std::string version;   // GL_VERSION
+  std::string version;   // GL_VERSION; "none"
 };
+
+// What a page is drawn for. For a picture by itself OpenGL's library would take longer to open than all else takes, so that it is
+// opened for one only where --gl asks for it.
+enum class PageUse { film, still };
 
 // While no canvas draws by OpenGL: its libraries' code, some 60 MB, need not lie in memory.
 void give_renderer_back();
@@ -44,25 +48,26 @@ class ComingRenderer {
  public:
   // Throws Error (exit 7) where no page is so large, or memory is too short for it.
   // `before`: what the thread does first, since both together would take too much address space; what it throws is thrown later.
-  ComingRenderer(int width, int height, const std::function<void()>& before = {});
+  ComingRenderer(int width, int height, PageUse use = PageUse::film, const std::function<void()>& before = {});
   ComingRenderer(ComingRenderer&&) noexcept;
   ComingRenderer& operator=(ComingRenderer&&) noexcept;
   ~ComingRenderer();  // waits for it
 
-  // Once; throws what made it fail.
+  // Once; throws what made it fail. None where pages of this use are filled in memory.
   std::unique_ptr<GlPainter> arrived();
 
  private:
   friend class Canvas;
   std::future<std::unique_ptr<GlPainter>> painter_;
   int width_, height_;
+  PageUse use_;
 };
 
 class Canvas {
  public:
   // The first drawing throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its
   // limits.
-  Canvas(int width, int height, const Fonts& fonts);
+  Canvas(int width, int height, const Fonts& fonts, PageUse use = PageUse::film);
   Canvas(ComingRenderer renderer, const Fonts& fonts);
   // Of the layer's size, over it. Needs no OpenGL.
   Canvas(std::shared_ptr<const StaticLayer> layer, const Fonts& fonts);

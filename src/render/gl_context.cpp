@@ -25,9 +25,10 @@ GlFunctions load_gl_functions(const GlLookup& lookup) {
 
 namespace {
 
-constexpr Name kBackends[] = {{"auto", "OSMesa if it is there, else EGL"},
+constexpr Name kBackends[] = {{"auto", "for films OSMesa if it is there, else EGL; for a still none"},
                               {"osmesa", "Mesa's library for pictures in memory"},
-                              {"egl", "Mesa without a screen, on the processor"}};
+                              {"egl", "Mesa without a screen, on the processor"},
+                              {"none", "all is filled by chainreel itself"}};
 
 std::atomic<GlBackend> chosen = GlBackend::automatic;
 
@@ -45,11 +46,16 @@ void require_address_space() {
   munmap(room, kAddressSpace);
 }
 
-// Any other renderer draws other bytes. Who names one to Mesa means it.
+// Who names a renderer to Mesa means it.
+bool names_renderer() {
+  return std::getenv("GALLIUM_DRIVER") != nullptr;
+}
+
+// Any other renderer draws other bytes.
 void require_llvmpipe(GlContext& context) {
   const auto* const text = reinterpret_cast<const char*>(context.gl().GetString(GL_RENDERER));
   const std::string renderer = text == nullptr ? "" : text;
-  if (renderer.starts_with("llvmpipe") || std::getenv("GALLIUM_DRIVER") != nullptr) return;
+  if (renderer.starts_with("llvmpipe") || names_renderer()) return;
   throw Error(ExitCode::no_renderer,
               context.backend() + " draws by " + renderer +
                   ", whose pictures have other bytes than those of llvmpipe: install the Debian package libosmesa6, or "
@@ -73,7 +79,8 @@ std::unique_ptr<GlContext> create_chosen_context() {
   switch (chosen) {
     case GlBackend::osmesa: return create_osmesa_context();
     case GlBackend::egl: return create_egl_context();
-    case GlBackend::automatic: break;
+    case GlBackend::automatic:
+    case GlBackend::none: break;
   }
   return create_any_context();
 }
@@ -86,6 +93,11 @@ std::span<const Name> names_of(GlBackend) {
 
 void choose_gl_backend(GlBackend backend) {
   chosen = backend;
+}
+
+bool opengl_draws(PageUse use) {
+  if (chosen != GlBackend::automatic) return chosen != GlBackend::none;
+  return use == PageUse::film || names_renderer();
 }
 
 std::unique_ptr<GlContext> create_gl_context() {

@@ -15,11 +15,11 @@ namespace {
 // Titles of plots whose units come with the constraints.
 const std::string kMultipliers = "lambda", kMissed = "constraint error";
 
-// "lambda [N, N m]", "constraint error [m]": a row of lengths bears forces, one of angles torques.
+// "lambda [N, N m]", "constraint error [m]".
 std::string with_row_units(const std::string& title, const Simulation& simulation) {
   std::vector<std::string> units;
-  for (const std::string& force : multiplier_units(simulation.chain, simulation.constraints.list)) {
-    const std::string unit = title == kMultipliers ? force : force == "N" ? "m" : force == "N m" ? "rad" : "";
+  for (const RowUnits& row : row_units(simulation.chain, simulation.constraints.list)) {
+    const std::string& unit = title == kMultipliers ? row.multiplier : row.error;
     if (!unit.empty() && std::find(units.begin(), units.end(), unit) == units.end()) units.push_back(unit);
   }
   return units.empty() ? title : title + " [" + joined(units) + "]";

@@ -65,8 +65,8 @@ TEST(Renderer, DrawsTheSameBytesWhateverTheEnvironmentSaysOfLibraries) {
   const TemporaryFolder folder;
   const auto bytes = [&](const std::string& name, const Environment& environment) {
     const std::string file = folder.file(name + ".png");
-    const ProgramResult result = run_program({"snapshot", "assets/scenes/rr_ellipse.yaml", "--at", "1", "--quiet", "--set",
-                                              "video.width=160", "--set", "video.height=90", "-o", file},
+    const ProgramResult result = run_program({"--gl", "osmesa", "snapshot", "assets/scenes/rr_ellipse.yaml", "--at", "1", "--quiet",
+                                              "--set", "video.width=160", "--set", "video.height=90", "-o", file},
                                              {.folder = "", .environment = environment});
     EXPECT_EQ(result.status, 0) << name << ": " << result.err;
     return read_whole_file(file);
@@ -84,6 +84,26 @@ TEST(Renderer, DrawsTheSameBytesWhateverTheEnvironmentSaysOfLibraries) {
   EXPECT_FALSE(bytes("softpipe", {{"GALLIUM_DRIVER", "softpipe"}}).empty()) << "who names a renderer means it";
 }
 
+// A picture by itself opens no library unless one is named, a film can do without; with the same bytes.
+TEST(Renderer, IsNotNeededForStillsAndNoneIsUsedWhereNoneIsWanted) {
+  const TemporaryFolder folder;
+  const auto bytes = [&](const std::string& name, Words words, const Environment& environment) {
+    const std::string file = folder.file(name);
+    words.insert(words.end(), {"--quiet", "--set", "video.width=160", "--set", "video.height=90", "-o", file});
+    const ProgramResult result = run_program(words, {.folder = "", .environment = environment});
+    EXPECT_EQ(result.status, 0) << name << ": " << result.err;
+    return read_whole_file(file);
+  };
+  const Environment missing = without("libEGL libOSMesa");
+  const Words snapshot{"snapshot", "assets/scenes/rr_ellipse.yaml", "--at", "1"}, film{"render", "assets/scenes/rr_ellipse.yaml", "--set", "duration=0.2"};
+  const std::string still = bytes("still.png", snapshot, missing);
+  EXPECT_TRUE(bytes("osmesa.png", with({"--gl", "osmesa"}, snapshot), {}) == still);
+  EXPECT_TRUE(bytes("none.mp4", with({"--gl", "none"}, film), missing) == bytes("film.mp4", film, {}));
+  EXPECT_EQ(run_program(with(film, {"-o", folder.file("b.mp4")}), {.folder = "", .environment = missing}).status, 4);
+  EXPECT_FALSE(bytes("softpipe.png", snapshot, {{"GALLIUM_DRIVER", "softpipe"}}).empty()) << "who names a renderer means it";
+  EXPECT_EQ(renderer(doctor({"--gl", "none"}, missing))["backend"], "none");
+}
+
 TEST(Renderer, ComesFromTheLibraryThatIsNamedByFlagOrVariable) {
   EXPECT_EQ(renderer(doctor({"--gl", "egl"}))["backend"], "EGL");
   EXPECT_EQ(renderer(doctor({}, {{"CHAINREEL_GL", "egl"}}))["backend"], "EGL");
@@ -92,7 +112,7 @@ TEST(Renderer, ComesFromTheLibraryThatIsNamedByFlagOrVariable) {
   EXPECT_EQ(renderer(doctor({"--gl", "auto"}))["backend"], "OSMesa");
   const ProgramResult wrong = doctor({"--gl", "glx"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("osmesa,egl"));
+  EXPECT_THAT(wrong.err, HasSubstr("osmesa,egl,none"));
 }
 
 TEST(Renderer, ThatIsMissingIsReplacedByTheOtherOrNamedWithItsPackage) {

@@ -205,7 +205,7 @@ TEST(Canvas, FixedItemsAreDrawnFirstAndLeaveTheBytesAsTheyAre) {
 }
 
 TEST(Canvas, WhatFailsWhileItComesIsToldByWhoDraws) {
-  ComingRenderer coming(16, 16, [] { throw Error(ExitCode::no_renderer, "none is there"); });
+  ComingRenderer coming(16, 16, PageUse::film, [] { throw Error(ExitCode::no_renderer, "none is there"); });
   Canvas canvas(std::move(coming), fonts());
   EXPECT_THROW(canvas.draw(Picture{}), Error);
   EXPECT_NO_THROW(canvas.draw(Picture{})) << "who tries again has another one";
@@ -217,6 +217,7 @@ TEST(Canvas, RendererHasAName) {
   EXPECT_FALSE(info.renderer.empty());
   EXPECT_GE(std::atof(info.version.c_str()), 3.3);
   EXPECT_EQ(Canvas(8, 8, fonts()).info().renderer, info.renderer);
+  EXPECT_EQ(Canvas(8, 8, fonts(), PageUse::still).info().backend, "none");
 }
 
 }  // namespace

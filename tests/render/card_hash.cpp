@@ -1,5 +1,5 @@
 // Prints the SHA-256 of the pixels of the test card and of bodies in space, to be compared between settings of the renderer,
-// processors and, named as an argument, the libraries that bring it.
+// processors and, named as an argument, the library that brings it, or none.
 #include <cstdio>
 #include <memory>
 #include <span>

@@ -1,4 +1,4 @@
-// What moves is drawn in memory, what lies under it by OpenGL: with the same bytes, whatever the shape.
+// What moves, and a picture by itself, is drawn in memory, what lies under films by OpenGL: with the same bytes, whatever the shape.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,6 +83,14 @@ Image by_opengl(const Picture& picture) {
   return image;
 }
 
+// By itself, background and all.
+Image as_still(const Picture& picture) {
+  static Canvas canvas(kPageWidth, kPageHeight, fonts(), PageUse::still);
+  Image image;
+  canvas.draw(picture, image);
+  return image;
+}
+
 // Over a page of the picture's background.
 Image in_memory(const Picture& picture) {
   static Canvas& canvas = *new Canvas(kPageWidth, kPageHeight, fonts());  // the renderer's library may end before statics do
@@ -146,6 +154,7 @@ TEST(WindowPainter, GivesTheBytesOfTheShaders) {
       for (int i = 0; i < 3; ++i) picture.add(make());
       const Image expected = by_opengl(picture);
       EXPECT_EQ(difference(in_memory(picture), expected), "") << kind << " " << round;
+      EXPECT_EQ(difference(as_still(picture), expected), "") << kind << " " << round;
       if (picture.background.a < 1) continue;
       for (const WindowFillers& fillers : window_fillers())
         EXPECT_EQ(difference(filled_by(fillers, picture), expected), "")
@@ -162,6 +171,16 @@ TEST(WindowPainter, GivesTheBytesOfTheShadersForEachShapeOfACard) {
       EXPECT_EQ(difference(in_memory(one), by_opengl(one)), "")
           << "item " << i << ", kind " << card.items[i].shape.index();
     }
+  }
+}
+
+// What OpenGL clears a page with, and what a picture by itself begins with.
+TEST(WindowPainter, BeginsWithTheBackgroundThatOpenGlClears) {
+  Shapes shapes;
+  for (int round = 0; round < 500; ++round) {
+    Picture picture;
+    picture.background = {shapes.level(), shapes.level(), shapes.level(), round < 256 ? round / 255.0 : round < 400 ? 0.5 : shapes.number(0, 1)};
+    ASSERT_EQ(difference(as_still(picture), by_opengl(picture)), "") << round << ", opacity " << picture.background.a;
   }
 }
 

@@ -96,9 +96,8 @@ std::vector<std::string> changed_tables(const Json& beside, const PreparedFilm& 
   const Json records = beside.is_object() ? beside.value(kTables, Json::array()) : Json::array();
   std::vector<std::string> words;
   for (std::size_t i = 0; i < std::min(records.size(), prepared.panels.size()); ++i) {
-    Scene named = prepared.panels[i].scene;
-    const char* key = named.motion ? "motion" : "torque";
-    for (std::string& one : table_changes(records[i], take_driving_tables(named), key))
+    const Scene& scene = prepared.panels[i].scene;
+    for (std::string& one : table_changes(records[i], driving_tables(scene), scene.motion ? "motion" : "torque"))
       if (std::find(words.begin(), words.end(), one) == words.end()) words.push_back(std::move(one));
   }
   return words;

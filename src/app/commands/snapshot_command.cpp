@@ -99,7 +99,7 @@ class Pictures {
       for (const std::string& path : place_.paths) {
         const auto file = place_.is_folder ? std::filesystem::path(path) / (name + ".png") : std::filesystem::path(path);
         files_.back().push_back(std::make_unique<OutputFile>(file.string(), options.common.force));
-        if (picture_format_of(file.string()).has_pixels && !renderer_) renderer_.emplace(width, height);
+        if (picture_format_of(file.string()).has_pixels && !renderer_) renderer_.emplace(width, height, PageUse::still);
       }
     }
   }

@@ -111,7 +111,7 @@ std::vector<std::string> paths_of(const std::vector<Target>& targets) {
 }
 
 Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts) {
-  Canvas canvas(width, height, fonts);
+  Canvas canvas(width, height, fonts, PageUse::still);
   Image image;
   canvas.draw(picture, image);
   return image;

@@ -8,40 +8,41 @@
 namespace chainreel {
 namespace {
 
-class Tables {
- public:
-  void take(MotionEntry& motion) { add(motion.csv, sha256_of(*motion.table)); }
-  void take(Control& control) {
-    take(control.csv);
-    take(control.inverse_of);
-    if (control.pd) take(control.pd->trajectory);
-    if (control.computed_torque) take(control.computed_torque->trajectory);
-  }
-  Json hashes() { return std::move(hashes_); }
+std::string name_of(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
 
- private:
-  // Names alone stay in the key.
-  void take(std::string& path) {
-    if (!path.empty()) add(path, sha256_of(read_csv(path)));
-  }
-  void add(std::string& path, const std::string& hash) {
-    path = std::filesystem::path(path).filename().string();
-    const std::string others = hashes_.value(path, "");  // of another folder
-    hashes_[path] = others + (others.empty() ? "" : " ") + hash;
-  }
-
-  Json hashes_ = Json::object();
-};
+// Calls `visit` with the path of each table of a scene, constant or not.
+template <class AnyScene, class Visit>
+void for_each_table(AnyScene& scene, const Visit& visit) {
+  const auto of_control = [&visit](auto& control) {
+    for (auto* path : {&control.csv, &control.inverse_of})
+      if (!path->empty()) visit(*path);
+    if (control.pd && !control.pd->trajectory.empty()) visit(control.pd->trajectory);
+    if (control.computed_torque && !control.computed_torque->trajectory.empty()) visit(control.computed_torque->trajectory);
+  };
+  if (scene.motion) visit(scene.motion->csv);
+  if (scene.control) of_control(*scene.control);
+  for (auto& entry : scene.torque)
+    if (entry.control) of_control(*entry.control);
+}
 
 }  // namespace
 
-Json take_driving_tables(Scene& scene) {
-  Tables tables;
-  if (scene.motion) tables.take(*scene.motion);
-  if (scene.control) tables.take(*scene.control);
-  for (TorqueEntry& entry : scene.torque)
-    if (entry.control) tables.take(*entry.control);
-  return tables.hashes();
+Json driving_tables(const Scene& scene) {
+  Json hashes = Json::object();
+  for_each_table(scene, [&](const std::string& path) {
+    // A recorded motion is read already.
+    const bool is_motion = scene.motion && &path == &scene.motion->csv;
+    const std::string others = hashes.value(name_of(path), "");  // of another folder
+    hashes[name_of(path)] = others + (others.empty() ? "" : " ") + sha256_of(is_motion ? *scene.motion->table : read_csv(path));
+  });
+  return hashes;
+}
+
+Scene with_named_tables(Scene scene) {
+  for_each_table(scene, [](std::string& path) { path = name_of(path); });
+  return scene;
 }
 
 std::vector<std::string> table_changes(const Json& before, const Json& after, const std::string& key) {

@@ -173,8 +173,8 @@ void add_multipliers(DataTable& table, const Simulation& simulation, const Traje
 
 void add_constraint_errors(DataTable& table, const Simulation& simulation, const Trajectory& trajectory) {
   std::vector<std::string> names;
-  for (const std::string& unit : multiplier_units(simulation.chain, simulation.constraints.list))
-    names.push_back(with_unit("phi" + std::to_string(names.size() + 1), unit == "N" ? "m" : unit == "N m" ? "rad" : ""));
+  for (const RowUnits& row : row_units(simulation.chain, simulation.constraints.list))
+    names.push_back(with_unit("phi" + std::to_string(names.size() + 1), row.error));
   table.add("constraint_error", std::move(names), {std::size_t(trajectory.rows)}, constraint_errors_along(simulation, trajectory));
 }
 
@@ -241,7 +241,7 @@ std::vector<std::string> torque_columns(const Chain& chain) {
 
 std::vector<std::string> multiplier_columns(const Chain& chain, const std::vector<Constraint>& constraints) {
   std::vector<std::string> names;
-  for (const std::string& unit : multiplier_units(chain, constraints)) names.push_back(with_unit("lambda" + std::to_string(names.size() + 1), unit));
+  for (const RowUnits& row : row_units(chain, constraints)) names.push_back(with_unit("lambda" + std::to_string(names.size() + 1), row.multiplier));
   return names;
 }
 

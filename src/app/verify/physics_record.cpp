@@ -92,9 +92,7 @@ Json model_record(const ModelSource& urdf, const ModelOptions& options, Describe
 
 Json run_record(const PreparedFilm& film, const Runs& runs) {
   Json models = Json::array(), panels = Json::array();
-  Scene named = film.scene;
-  take_driving_tables(named);
-  Json page = keys_of(named, KeyOf::page);
+  Json page = keys_of(with_named_tables(film.scene), KeyOf::page);
   page["title"] = film.scene.title;
   std::vector<ModelReading> read;  // of `models`: panels that share one read its meshes once
   for (std::size_t i = 0; i < film.panels.size(); ++i) {
@@ -105,12 +103,9 @@ Json run_record(const PreparedFilm& film, const Runs& runs) {
       read.push_back(reading);
       models.push_back(model_record(reading.source, reading.options, reading.collisions));
     }
-    named = panel.scene;
-    Json tables = take_driving_tables(named);
-    Json keys = keys_of(named, KeyOf::panel);
     panels.push_back({{"title", panel.scene.title},
-                      {"keys", std::move(keys)},
-                      {"tables", std::move(tables)},
+                      {"keys", keys_of(with_named_tables(panel.scene), KeyOf::panel)},
+                      {"tables", driving_tables(panel.scene)},
                       {"model", index},
                       {"method", method_record(panel)},
                       {"trajectory", trajectory_record(panel, runs[i])}});

@@ -384,7 +384,7 @@ std::optional<ComingRenderer> renderer_ahead(const std::vector<Output>& outputs,
   const auto is_picture = [](const Output& output) { return !output.shows(Shows::table); };
   if (std::none_of(outputs.begin(), outputs.end(), is_picture)) return {};
   const bool has_films = std::any_of(outputs.begin(), outputs.end(), is_film);
-  return ComingRenderer(scene.video.width, scene.video.height, [has_films] {
+  return ComingRenderer(scene.video.width, scene.video.height, PageUse::film, [has_films] {
     if (has_films) libav();
   });
 }

@@ -398,8 +398,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.audit[kMechanisms] = result.audit[kTables] = Json::array();
   for (const PreparedScene& panel : film.panels) {
     result.audit[kMechanisms].push_back(mechanism_record(panel));
-    Scene named = panel.scene;
-    result.audit[kTables].push_back(take_driving_tables(named));
+    result.audit[kTables].push_back(driving_tables(panel.scene));
   }
   result.audit["held_frames"] = held_frames_of(schedule);
 

@@ -123,7 +123,8 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                 "the start holds '" + set.row_names()[std::size_t(row)] +
                     "' the wrong way round, half a turn off: start nearer to the pose that is meant",
                 start);
-  const std::string unit = multiplier_units(chain, simulation.constraints.list)[std::size_t(way.worst_row)] == "N" ? " m" : " rad";
+  const std::string measure = row_units(chain, simulation.constraints.list)[std::size_t(way.worst_row)].error;
+  const std::string unit = measure.empty() ? "" : " " + measure;
   double moved = 0;
   for (std::size_t i = 0; i < q.size(); ++i) moved = std::max(moved, std::fabs(q[i] - simulation.q0[i]));
   // One that nobody wrote may be anywhere.

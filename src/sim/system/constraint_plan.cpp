@@ -60,12 +60,13 @@ PlaneCurve::Place ExpressionCurve::at(double s) const {
   return place;
 }
 
-std::vector<std::string> multiplier_units(const Chain& chain, const std::vector<Constraint>& constraints) {
+std::vector<RowUnits> row_units(const Chain& chain, const std::vector<Constraint>& constraints) {
+  static const RowUnits kLength{"m", "N"}, kAngle{"rad", "N m"};
   const ConstraintSet set(chain, constraints);
   std::vector<JointKind> kinds(std::size_t(chain.nv), JointKind::floating);
   for (std::size_t b = 1; b < chain.bodies.size(); ++b)
     if (const Joint& joint = chain.bodies[b].joint; joint.kind != JointKind::floating) kinds[std::size_t(joint.v_index)] = joint.kind;
-  std::vector<std::string> units;
+  std::vector<RowUnits> units;
   for (const ConstraintSet::Row& row : set.row_list()) {
     std::optional<JointKind> common;
     bool is_mixed = false;
@@ -75,11 +76,11 @@ std::vector<std::string> multiplier_units(const Chain& chain, const std::vector<
       common = kind;
     }
     if (row.kind == ConstraintSet::Kind::parallel)
-      units.push_back("N m");
+      units.push_back(kAngle);
     else if (row.kind != ConstraintSet::Kind::coordinates)
-      units.push_back("N");
+      units.push_back(kLength);
     else
-      units.push_back(is_mixed || !common || *common == JointKind::floating ? "" : *common == JointKind::prismatic ? "N" : "N m");
+      units.push_back(is_mixed || !common || *common == JointKind::floating ? RowUnits{} : *common == JointKind::prismatic ? kLength : kAngle);
   }
   return units;
 }

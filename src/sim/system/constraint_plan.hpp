@@ -38,9 +38,13 @@ struct ConstraintPlan {
   bool empty() const { return list.empty(); }
 };
 
-// Of each row's multiplier: N of a length that is held, N m of a direction; of coordinates that of what moves them, "" where it is not the
-// same for all.
-std::vector<std::string> multiplier_units(const Chain& chain, const std::vector<Constraint>& constraints);
+// Of each row: a length that is held bears a force, a direction a torque; of coordinates what moves them decides, and both are ""
+// where that is not the same for all.
+struct RowUnits {
+  std::string error;       // m, rad
+  std::string multiplier;  // N, N m
+};
+std::vector<RowUnits> row_units(const Chain& chain, const std::vector<Constraint>& constraints);
 
 // A curve in the plane of motion from two expressions in its parameter s.
 
