@@ -138,6 +138,10 @@ double FilmReader::fps() const {
   return rate.den == 0 ? 0 : av_q2d(rate);
 }
 
+std::string FilmReader::container() const {
+  return state_->input->iformat->name;
+}
+
 int FilmReader::width() const {
   return state_->frame->width;
 }

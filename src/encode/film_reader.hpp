@@ -18,6 +18,7 @@ class FilmReader {
 
   double seconds() const;  // of the film, as its file says; 0 where it does not
   double fps() const;      // frames a second, as its file says; 0 where it does not
+  std::string container() const;  // FFmpeg's name of it, or some with commas between: "gif", "matroska,webm"
   int width() const;       // of the last frame, pixels
   int height() const;
   double time() const;  // s from the first frame to the last that was read

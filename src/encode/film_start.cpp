@@ -16,6 +16,7 @@ FilmStart read_film_start(const std::string& path, int widest, double at) {
   start.width = reader.width();
   start.height = reader.height();
   start.seconds = reader.seconds();
+  start.container = reader.container();
   return start;
 }
 

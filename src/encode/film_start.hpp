@@ -11,6 +11,7 @@ namespace chainreel {
 struct FilmStart {
   int width = 0, height = 0;  // of the film, pixels
   double seconds = 0;         // of the film
+  std::string container;      // what the file holds, whatever its name: "mov,mp4,m4a,3gp,3g2,mj2", "matroska,webm", "gif", "apng"
   Image frame;                // opaque, scaled down to at most the width that was asked for
 };
 

@@ -1,6 +1,7 @@
 #include "sim/plots.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/format.hpp"
 #include "dynamics/energy.hpp"
@@ -167,7 +168,10 @@ PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simula
     if (trajectory.rows > 0) probe.set_multipliers(trajectory.lambda_at(k));
     if (plots.load.are_read()) {
       hold_as_then(system, simulation, trajectory, t);
-      plots.load.set(probe, ground_load(system, ws, plots.ground, plots.ground_height, t, q, qd, qdd));
+      GroundLoad load = ground_load(system, ws, plots.ground, plots.foot->height, t, q, qd, qdd);
+      // Thousands of metres off a foot that is nearly free, it would leave no height for the rest of the curve.
+      if (!presses_near(load, *plots.foot)) load.cop = NAN;
+      plots.load.set(probe, load);
     }
     curve.y.push_back(value.evaluate(probe.values()));
   }
@@ -226,7 +230,7 @@ std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<
     const Parameters of_foot = foot_parameters(*foot);
     known.insert(known.end(), of_foot.begin(), of_foot.end());
   }
-  auto plots = std::make_shared<PlotSet>(PlotSet{{}, Probe(chain, known, rows, frames), false, {}, 0, {}});
+  auto plots = std::make_shared<PlotSet>(PlotSet{{}, Probe(chain, known, rows, frames), false, {}, {}, {}});
   ProblemList problems;
   for (const PlotEntry& entry : entries) {
     try {
@@ -239,7 +243,7 @@ std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<
   if (foot) {
     const auto& names = plots->probe.names();
     for (std::size_t i = 0; i < names.size(); ++i) plots->load.add(names[i], int(i));
-    plots->ground_height = foot->height;
+    plots->foot = foot;
     plots->ground = ground_axes(chain);
   }
   return plots;

@@ -52,7 +52,7 @@ struct PlotSet {
   Probe probe;
   bool needs_kinematics = false;
   GroundSlots load;  // in the probe, where there is a foot
-  double ground_height = 0;
+  std::optional<Foot> foot;
   GroundAxes ground;
 };
 

@@ -180,6 +180,31 @@ TEST(Gallery, TellsWhatItCannotShow) {
   EXPECT_EQ(read_whole_file(mine), "mine");
 }
 
+// A browser shows a film of another kind than its name's not at all, half a moving picture without a word.
+TEST(Gallery, RefusesFilmsThatAreNotWhatTheirNamesSayAndHalves) {
+  const TemporaryFolder folder;
+  const std::string gif = read_whole_file(render(folder, "a.gif")), apng = read_whole_file(render(folder, "b.apng"));
+  ASSERT_EQ(gallery(folder).status, 0);
+  const auto refused = [&](const std::string& name, const std::string& bytes) {
+    const std::string file = folder.write(name, bytes);
+    const ProgramResult result = run_program({"gallery", file, "-o", folder.file("page.html")});
+    EXPECT_EQ(result.status, 3) << name;
+    EXPECT_FALSE(fs::exists(folder.file("page.html")));
+    fs::remove(file);
+    return result.err;
+  };
+  EXPECT_THAT(refused("c.gif", read_whole_file(render(folder, "a.mp4"))), HasSubstr("is named .gif but holds mov,mp4"));
+  EXPECT_THAT(refused("c.apng", gif), HasSubstr("is named .apng but holds gif"));
+  EXPECT_THAT(refused("c.webm", apng), HasSubstr("is named .webm but holds apng"));
+  EXPECT_THAT(refused("c.gif", gif.substr(0, gif.size() - 1)), HasSubstr("was cut short"));
+  EXPECT_THAT(refused("c.apng", apng.substr(0, apng.size() - 400)), HasSubstr("was cut short"));
+  const std::string huge = folder.write("d.gif", gif);
+  fs::resize_file(huge, 3'000'000'000);  // takes no room on the disk
+  const ProgramResult result = gallery(folder);
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.err, HasSubstr("has 3000 MB, of which a page holds 300 at most"));
+}
+
 TEST(FilmStart, IsTheFirstFrameAsAnotherReaderSeesIt) {
   const TemporaryFolder folder;
   const std::string file = render(folder, "a.mp4");

@@ -7,6 +7,7 @@
 #include "scene/run/fall.hpp"
 #include "scene/run/title.hpp"
 #include "scene/run/prepare.hpp"
+#include "scene/text/asked_instant.hpp"
 #include "scene/text/write_scene.hpp"
 #include "written_scenes.hpp"
 
@@ -14,6 +15,15 @@ namespace chainreel {
 namespace {
 
 using testing::HasSubstr;
+
+TEST(AskedInstants, ArePartedByCommasOutsideOfBracketsAndNamesOfEvents) {
+  using testing::ElementsAre;
+  EXPECT_THAT(parted_instants("0,1.2s,home=event touch"), ElementsAre("0", "1.2s", "home=event touch"));
+  EXPECT_THAT(parted_instants("event max(1, 2), 3"), ElementsAre("event max(1, 2)", " 3"));
+  EXPECT_THAT(parted_instants("event down, first, 2s"), ElementsAre("event down, first", " 2s"));
+  EXPECT_THAT(parted_instants("a=event down, first,b=event q1 == 2, second"), ElementsAre("a=event down, first", "b=event q1 == 2, second"));
+  EXPECT_THAT(parted_instants("1s, soon"), ElementsAre("1s", " soon")) << "no event is named, so that this is a mistake";
+}
 
 class Events : public WrittenScenes {
  protected:

@@ -303,6 +303,9 @@ TEST_F(Suites, VariantsThatSayNothingAreRefusedWithTheirLine) {
   EXPECT_THAT(error(head + "  a: {parametrs.F: 300}\n"), AllOf(HasSubstr("snapshots.yaml:4"), HasSubstr("unknown key")));
   EXPECT_THAT(error("scene: swing.yaml\nvariants: 3\n"), HasSubstr("must hold names"));
   EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {base: floating}}\n"), HasSubstr("which no source of the suite has"));
+  // A payload is seen at a pose, gravity is not.
+  EXPECT_EQ(read("model: arm.urdf\nposes: {bent: {}}\nvariants: {a: {theme: light}, b: {payload.mass: 2}}\n").pictures.size(), 2u);
+  EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {gravity: [0, 0, 0]}}\n"), HasSubstr("which no source of the suite has"));
   EXPECT_THAT(error("model: arm.urdf\nvariants: {a: {duration: 1}}\n"), HasSubstr("which no source of the suite has"));
 }
 

@@ -51,6 +51,31 @@ TEST(Plots, ShowQuantitiesByName) {
   EXPECT_EQ(plots[1].curves[1].y[0], -0.2);
 }
 
+// Of what swings so fast that it would take off in between: a centre of pressure far from the foot, or none at all, would leave
+// no height for the rest of the curve.
+TEST(Plots, OfTheCentreOfPressureHaveGapsWhereNothingPressesNearTheFoot) {
+  Simulation run = pendulum({});
+  const Foot foot{.heel = -0.1, .toe = 0.3};
+  run.q0 = {0.5, 0}, run.qd0 = {9, 0};
+  run.torque = make_torque_law(run.chain, {{"40", {}, {}}, {"0", {}, {}}}, {});
+  run.plots = make_plots(run.chain, {{"cop", "", {}}, {"grf", "", {}}}, {}, {}, foot);
+  std::vector<double> times;
+  for (int k = 0; k <= 200; ++k) times.push_back(0.005 * k);
+  const auto plots = plot_curves(run, simulate(run, times), int(times.size()));
+  int pulls = 0, far = 0, near = 0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double cop = plots[0].curves[0].y[k], grf = plots[1].curves[0].y[k];
+    EXPECT_TRUE(std::isfinite(grf));
+    (std::isfinite(cop) ? near : grf > 0 ? far : pulls)++;
+    if (!std::isfinite(cop)) continue;
+    EXPECT_GT(grf, 0);
+    EXPECT_LT(std::abs(cop - 0.1), 3 * 0.4);
+  }
+  EXPECT_GT(pulls, 10);
+  EXPECT_GT(far, 0);
+  EXPECT_GT(near, 10);
+}
+
 // rr_chain: two links of 1 m, so that the tip's height has a closed form in q.
 TEST(Plots, EvaluateExpressionsAtTheSamples) {
   const auto plots =

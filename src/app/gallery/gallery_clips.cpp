@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <set>
 
@@ -23,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kPosterWidth = 960;  // pixels
+constexpr std::uintmax_t kLargestClip = 300'000'000;  // bytes; as text a third more, and browsers hold 512 MiB of it
 constexpr double kTellingShare = 0.4;  // of a film without events: its poster
 
 struct ChartKind {
@@ -39,6 +41,27 @@ constexpr std::array<std::string_view, 4> kBestFirst = {".mp4", ".webm", ".apng"
 std::string browser_type_of(const fs::path& path) {
   const OutputFormat* format = find_output_format(path.string());
   return format ? format->browser_type : "";
+}
+
+// A browser believes the name of a file that lies in a page, and holds a page of some hundred MB, no more.
+void require_playable(const GalleryClip& clip) {
+  const std::string held = "," + clip.start.container + ",", kind = clip.type.substr(clip.type.find('/') + 1);
+  if (held.find("," + kind + ",") == std::string::npos)
+    throw Error(ExitCode::bad_input, "is named " + lower_case_ending(clip.path) + " but holds " + clip.start.container, {clip.path});
+  // A moving picture is read from its start on, and plays without its end.
+  const std::string end = kind == "gif" ? ";" : kind == "apng" ? "IEND\xAE\x42\x60\x82" : "";
+  std::ifstream stream(clip.path, std::ios::binary);
+  std::string last(end.size(), ' ');
+  stream.seekg(-std::streamoff(end.size()), std::ios::end);
+  stream.read(last.data(), std::streamsize(last.size()));
+  if (last != end) throw Error(ExitCode::bad_input, "was cut short: its end is missing", {clip.path});
+}
+
+void require_room_in_page(const std::string& path) {
+  const auto bytes = fs::file_size(path);
+  if (bytes > kLargestClip)
+    throw Error(ExitCode::bad_input, "has " + std::to_string(bytes / 1'000'000) + " MB, of which a page holds " +
+                                         std::to_string(kLargestClip / 1'000'000) + " at most", {path});
 }
 
 // What a run that failed left behind, or what one still writes (NAME.PID.tmp.mp4), is no film to show, unless it is
@@ -155,6 +178,10 @@ FilmClock clock_of(const Json& audit, double end) {
 
 }  // namespace
 
+std::string played_endings(const std::string& last_word) {
+  return endings_of([](const OutputFormat& row) { return row.shows == Shows::motion && *row.browser_type != 0; }, last_word);
+}
+
 double poster_time(const Json& audit, double film_seconds) {
   const double otherwise = kTellingShare * film_seconds;
   try {
@@ -188,7 +215,7 @@ FoundClips find_clips(const std::vector<std::string>& paths) {
     else if (!fs::is_regular_file(path, code))
       problems.add("there is no such file or folder", {path});
     else if (browser_type_of(path).empty())
-      problems.add("is no film for browsers: a gallery takes .mp4, .webm, .gif and .apng", {path});
+      problems.add("is no film for browsers: a gallery takes " + played_endings("and"), {path});
     else
       found.paths.push_back(path);
   }
@@ -198,7 +225,7 @@ FoundClips find_clips(const std::vector<std::string>& paths) {
   std::erase_if(found.paths, [&](const std::string& path) { return !seen.insert(path).second; });
   std::sort(found.left_out.begin(), found.left_out.end());
   if (!found.paths.empty()) return found;
-  throw Error(ExitCode::bad_input, "there is no film (.mp4, .webm, .gif, .apng) here: render some first", {joined(paths)});
+  throw Error(ExitCode::bad_input, "there is no film (" + played_endings("or") + ") here: render some first", {joined(paths)});
 }
 
 std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {
@@ -212,7 +239,9 @@ std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {
     clip.type = browser_type_of(path);
     note_input(path);
     try {
+      require_room_in_page(path);
       clip.start = read_film_start(path, kPosterWidth);
+      require_playable(clip);
       remember(clip);
       clip.start = read_film_start(path, kPosterWidth, poster_time(clip.audit, clip.start.seconds));
       clips.push_back(std::move(clip));

@@ -27,6 +27,9 @@ struct GalleryClip {
   std::vector<GalleryChart> charts;
 };
 
+// ".mp4, .webm, .gif and .apng": films that browsers play.
+std::string played_endings(const std::string& last_word);
+
 // Films named, and those in folders named (of NAME.mp4, .webm, .apng and .gif that show the same the first), in the order in which they are named, those of a folder by their names.
 // Throws Error (exit 3) where a path is no film and no folder, and where there is no film at all.
 struct FoundClips {

@@ -51,7 +51,8 @@ void run_gallery(const GalleryOptions& options) {
   output.commit();
   if (!options.common.quiet) tell_of_long_films(clips);
   if (!options.common.quiet && !found.left_out.empty())
-    std::fprintf(stderr, "note: left out: %s; browsers play .mp4, .webm, .gif and .apng: give such a -o beside, as in -o a.mov -o a.mp4\n", joined(found.left_out).c_str());
+    std::fprintf(stderr, "note: left out: %s; browsers play %s: give such a -o beside, as in -o a.mov -o a.mp4\n",
+                 joined(found.left_out).c_str(), played_endings("and").c_str());
   tell_files(options.common, {options.output}, [&] { return Json{{"clips", clips.size()}}; });
 }
 
@@ -61,7 +62,7 @@ void add_gallery_command(CommandLine& app) {
   auto options = std::make_shared<GalleryOptions>();
   Command* command = app.add_subcommand(
       "gallery", "one page for browsers with films, their audits, charts and scenes, without a server");
-  command->add_option("paths", options->paths, "folders with films, or films: .mp4, .webm, .gif, .apng (default out)");
+  command->add_option("paths", options->paths, "folders with films, or films: " + played_endings("or") + " (default out)");
   command->add_option("-o,--output", options->output, "a .html file (default out/index.html)");
   command->add_option("--title", options->title, "of the page");
   add_result_options(*command, options->common);

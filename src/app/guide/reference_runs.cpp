@@ -84,7 +84,7 @@ std::string expressions_page() {
       {"x_H .. zd_H", "the same of each name H of `frames:`"},
       {"k", "each name of `parameters:`"},
       {"lambda1 ..", "multipliers of the constraints' rows, N or N m, as tau = M qdd + nle + J_c^T lambda has them: what the robot presses on its ties with; in events and plots"},
-      {"cop heel toe", "with a `foot:`: the centre of pressure and the foot's ends, m along the ground; in events and plots"},
+      {"cop heel toe", "with a `foot:`: the centre of pressure and the foot's ends, m along the ground; in events and plots, whose curves end where the ground does not press within three lengths of the foot"},
       {"grf", "with a `foot:`: the force of the ground on the robot against gravity, N; below zero it would have to pull; in events and plots"},
       {"s", "in a constraint's curve: the way along it"},
       {"pi", "3.14159.."}};

@@ -137,7 +137,8 @@ void PlotStrip::draw_static(Picture& picture) const {
   for (const StripCurve& curve : data_.curves) {
     draw_part(picture, frame_, curve.points, curve.style, *style_.theme, kPale);
     if (curve.label.empty() || curve.points.empty()) continue;
-    const Point end = frame_.at(curve.points.back());
+    const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [](const Point& p) { return std::isfinite(p.y); });
+    const Point end = frame_.at(last != curve.points.rend() ? *last : Point{curve.points.back().x, frame_.y.low});
     ends.push_back({{end.x, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);

@@ -20,22 +20,17 @@ constexpr double kWeightArrow = 0.15;  // units of H: as long is the force that 
 constexpr double kBesideOthers = 0.55;  // ... of that, where panels or plots share the page: the robot is what one looks at
 constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones lead out of the scene
 constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
-constexpr double kFarthest = 3;        // lengths of the foot: beyond, the arrow tells nothing
 
 // A run's foot, and what the ground answers at its samples.
 struct FootRun {
   struct Answer {
     double place = 0;                                 // centre of pressure, m along the ground
     Eigen::Vector3d force = Eigen::Vector3d::Zero();  // in weights
+    bool is_shown = false;
   };
 
   explicit FootRun(const StagedRun& motion);
   Eigen::Vector3d on_ground(double place) const { return place * ground.along + foot.height * ground.up; }
-  // A ground cannot pull; false for what is no number, too.
-  bool is_shown(const Answer& answer) const {
-    const double middle = (foot.heel + foot.toe) / 2;
-    return answer.force.dot(ground.up) > 0 && std::abs(answer.place - middle) < kFarthest * (foot.toe - foot.heel);
-  }
 
   double weight = 0;  // N
   Foot foot;
@@ -60,7 +55,7 @@ FootRun::FootRun(const StagedRun& motion)
     const double t = trajectory.t[std::size_t(k)];
     hold_as_then(system, *motion.simulation(), trajectory, t);
     const GroundLoad load = ground_load(system, ws, ground, foot.height, t, q, qd, qdd);
-    answers.push_back({load.cop, load.force / weight});
+    answers.push_back({load.cop, load.force / weight, presses_near(load, foot)});
   }
   motion.simulation()->torque->leave_pieces();
 }
@@ -95,7 +90,7 @@ class FootLayer : public Layer {
   void draw_page(Picture& picture, const SharedPage& page, int k) const override {
     const bool is_shown = std::any_of(runs_.begin(), runs_.end(), [k](const auto& one) {
       const std::vector<FootRun::Answer>& answers = one.second.answers;
-      return one.second.is_shown(answers[std::size_t(std::clamp(k, 0, int(answers.size()) - 1))]);
+      return answers[std::size_t(std::clamp(k, 0, int(answers.size()) - 1))].is_shown;
     });
     for (const PlacedEntry& entry : page.sheet.scales)
       if (is_shown && entry.line.entry.by_frame) draw_entry(picture, entry.line, entry.left, *theme_);
@@ -106,7 +101,7 @@ class FootLayer : public Layer {
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
     const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(sight.k, 0, int(run.answers.size()) - 1))];
-    if (!run.is_shown(answer)) return;
+    if (!answer.is_shown) return;
     box.add({0, 0, arrow_ * std::min(kMostRoom, answer.force.dot(run.ground.up)), 0}, sight.camera.flat(run.on_ground(answer.place)));
   }
 
@@ -129,7 +124,7 @@ class FootLayer : public Layer {
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
     const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(shot.k, 0, int(run.answers.size()) - 1))];
-    if (!run.is_shown(answer)) return;
+    if (!answer.is_shown) return;
     const Camera& camera = panel.camera();
     const Point force = (arrow_ / camera.scale) * camera.project_vector(answer.force, camera.focus);
     const bool stands = answer.place >= run.foot.heel && answer.place <= run.foot.toe;

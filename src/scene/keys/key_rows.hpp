@@ -117,6 +117,7 @@ class KeyRow {
   KeyRow&& of_page() && { return key_.of = KeyOf::page, std::move(*this); }
   KeyRow&& flag(FlagGroup group, const char* name) && { return key_.flags = group, key_.flag = name, std::move(*this); }
   KeyRow&& of_model(OfModel use) && { return key_.of_model = use, std::move(*this); }
+  KeyRow&& seen_at_poses() && { return key_.is_seen_at_poses = true, std::move(*this); }
   // Of a list of the start: single numbers may be named by their joints.
   KeyRow&& by_joint(std::vector<double> StartState::*list, std::vector<JointNumbers> StartState::*of_joints) && {
     key_.read = [list, of_joints](const SceneKey& key, Fields& fields, Scene& scene) {

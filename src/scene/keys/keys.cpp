@@ -58,9 +58,9 @@ std::vector<Chapter> chapters() {
             .absent("such links are an error")
             .of_model(OfModel::mechanism),
         Row::section("payload", "payload: {mass: 2, at: [0.1, 0, 0]}", "a load that the robot carries, as a mass at a point: `--over payload.mass=0:4:5` sweeps it"),
-        Row("payload.mass", &Scene::payload, &Payload::mass, "of the load").in("kg").at_least(0).of_model(OfModel::mechanism).where(has_payload).caption("payload @ kg"),
-        Row("payload.link", &Scene::payload, &Payload::link, "that carries it").absent("the end effector").of_model(OfModel::mechanism).where(has_payload),
-        Row("payload.at", &Scene::payload, &Payload::at, "where, in that link's frame").in("m").of_model(OfModel::mechanism).where(has_payload),
+        Row("payload.mass", &Scene::payload, &Payload::mass, "of the load").in("kg").within(0, 1e9).of_model(OfModel::mechanism).seen_at_poses().where(has_payload).caption("payload @ kg"),
+        Row("payload.link", &Scene::payload, &Payload::link, "that carries it").absent("the end effector").of_model(OfModel::mechanism).seen_at_poses().where(has_payload),
+        Row("payload.at", &Scene::payload, &Payload::at, "where, in that link's frame").in("m").of_model(OfModel::mechanism).seen_at_poses().where(has_payload),
         Row("limit", &Scene::limit, "what comes of a joint that passes a limit"),
         Row(told_packages(), read_packages, write_packages)
             .example("packages: {my_robot: ../robot}")

@@ -8,11 +8,16 @@
 namespace chainreel {
 namespace {
 
+constexpr std::string_view kEvent = "event";
 constexpr const char* kForms = "write seconds, like 1.2s, or `event NAME`";
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
   return first == std::string::npos ? "" : text.substr(first, last + 1 - first);
+}
+
+bool is_event(const std::string& text) {
+  return text == kEvent || text.starts_with(std::string(kEvent) + " ");
 }
 
 // Of all panels, each once.
@@ -33,6 +38,28 @@ std::string AskedInstant::name() const {
   return event.empty() ? format_shortest(at) + "s" : event;
 }
 
+namespace {
+
+// Without the name that may stand in front: `start=event touch`.
+std::string unnamed(const std::string& part) {
+  const std::string text = trimmed(part);
+  return is_event(text) ? text : trimmed(text.substr(text.find('=') + 1));
+}
+
+// Whether a part of a list is an instant by itself: names of events may hold commas, too.
+bool begins_an_instant(const std::string& part) {
+  const std::string text = unnamed(part);
+  if (text.empty() || is_event(text)) return true;
+  try {
+    parse_quantity(text, {}, "s");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> parted_instants(const std::string& text) {
   std::vector<std::string> parts{""};
   int depth = 0;
@@ -43,15 +70,22 @@ std::vector<std::string> parted_instants(const std::string& text) {
     else
       parts.back() += c;
   }
+  for (std::size_t i = 1; i < parts.size();) {
+    if (!is_event(unnamed(parts[i - 1])) || begins_an_instant(parts[i])) {
+      ++i;
+      continue;
+    }
+    parts[i - 1] += "," + parts[i];
+    parts.erase(parts.begin() + std::ptrdiff_t(i));
+  }
   return parts;
 }
 
 AskedInstant parse_asked_instant(const std::string& text, const Place& place) {
   AskedInstant asked;
   asked.text = trimmed(text);
-  const std::string word = "event";
-  if (asked.text == word || asked.text.starts_with(word + " ")) {
-    asked.event = trimmed(asked.text.substr(word.size()));
+  if (is_event(asked.text)) {
+    asked.event = trimmed(asked.text.substr(kEvent.size()));
     if (asked.event.empty())
       throw Error(ExitCode::bad_input, std::string("`event` names no event: ") + kForms, place);
     return asked;

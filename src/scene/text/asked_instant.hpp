@@ -16,7 +16,7 @@ struct AskedInstant {
   std::string name() const;
 };
 
-// Commas part instants, but not within brackets: max(1, 2).
+// Commas part instants, but not within brackets, max(1, 2), nor within the name of an event, where what follows is no instant.
 std::vector<std::string> parted_instants(const std::string& text);
 
 // Throws Error at `place`.

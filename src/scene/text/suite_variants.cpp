@@ -46,10 +46,14 @@ SuiteVariant variant_of(const YamlDocument& document, const std::string& name, c
   return variant;
 }
 
+bool shows_at_poses(const SceneKey& key) {
+  return key.of_model == OfModel::picture || key.is_seen_at_poses;
+}
+
 std::vector<std::string> keys_of_pictures() {
   std::vector<std::string> names;
   for (const SceneKey& key : scene_keys())
-    if (key.of_model == OfModel::picture && !key.is_section && !key.name.starts_with("video.")) names.push_back(key.name);
+    if (shows_at_poses(key) && !key.is_section && !key.name.starts_with("video.")) names.push_back(key.name);
   return names;
 }
 
@@ -63,7 +67,7 @@ std::vector<std::string> with_variant(std::vector<std::string> overrides, const 
 bool is_about_models(const SuiteVariant& variant) {
   return std::all_of(variant.overrides.begin(), variant.overrides.end(), [](const SuiteOverride& one) {
     const SceneKey* row = find_key(key_of(one));
-    return row != nullptr && row->of_model == OfModel::picture;
+    return row != nullptr && shows_at_poses(*row);
   });
 }
 

@@ -62,6 +62,11 @@ Parameters foot_parameters(const Foot& foot) {
   return {{"cop", 0.0}, {"grf", 0.0}, {"heel", foot.heel}, {"toe", foot.toe}};
 }
 
+bool presses_near(const GroundLoad& load, const Foot& foot) {
+  constexpr double kFarthest = 3;  // lengths of the foot
+  return load.grf > 0 && std::abs(load.cop - (foot.heel + foot.toe) / 2) < kFarthest * (foot.toe - foot.heel);
+}
+
 void GroundSlots::add(const std::string& name, int slot) {
   if (name == "cop") cop = slot;
   if (name == "grf") grf = slot;

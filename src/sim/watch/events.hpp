@@ -62,6 +62,10 @@ GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes
 GroundLoad ground_load(ChainSystem& system, Workspace& ws, const GroundAxes& axes, double height, double t, ConstVec q,
                        ConstVec qd, Vec qdd);
 
+// Whether it presses (a ground cannot pull) within three of the foot's lengths of its middle: a centre of pressure farther off tells
+// nothing, and none is there without a number.
+bool presses_near(const GroundLoad& load, const Foot& foot);
+
 // Where a probe holds what the ground exerts; -1: nothing reads it.
 struct GroundSlots {
   int cop = -1, grf = -1;
