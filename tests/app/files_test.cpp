@@ -281,7 +281,7 @@ TEST(Memory, ThatIsShortIsExitSeven) {
   for (int limit = 100; limit <= 520; limit += 20) {
     const TemporaryFolder folder;
     const ProgramResult result = shell("ulimit -v " + std::to_string(limit * 1000) +
-                                           "; \"$0\" snapshot assets/scenes/pp_free.yaml --width 640 --height 360 -o \"$1\"/a.png", folder);
+                                           "; \"$0\" --gl osmesa snapshot assets/scenes/pp_free.yaml --width 640 --height 360 -o \"$1\"/a.png", folder);
     EXPECT_TRUE(result.status == 0 || result.status == 7) << limit << ": " << result.status << result.err;
     if (result.status == 7) EXPECT_TRUE(fs::is_empty(folder.path())) << limit;
     refused += result.status == 7;

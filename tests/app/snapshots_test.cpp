@@ -140,14 +140,16 @@ TEST(ManySnapshots, WhatIsUnclearIsRefusedBeforeAnythingIsWritten) {
   EXPECT_EQ(names_in(folder.file("y")), std::vector<std::string>{"b.png"});
 }
 
-TEST(Snapshots, OpenNoLibraryOfFilms) {
+TEST(Snapshots, OpenNoLibraryOfFilmsAndRenderersOnlyWhereOneIsNamed) {
   const TemporaryFolder folder;
-  const ProgramResult result =
-      run_program(chainreel::with({"snapshot", "assets/scenes/rr_free.yaml", "-o", folder.file("a.png")},
-                                  chainreel::with(kShortRun, kSmallPicture)),
-                  {.environment = {{"LD_DEBUG", "files"}}});
-  EXPECT_THAT(result.err, HasSubstr("libOSMesa"));
-  EXPECT_THAT(result.err, Not(HasSubstr("libavcodec")));
+  const auto opened = [&](const std::string& library, const std::string& name) {
+    return run_program(chainreel::with({"--gl", library, "snapshot", "assets/scenes/rr_free.yaml", "-o", folder.file(name)},
+                                       chainreel::with(kShortRun, kSmallPicture)),
+                       {.environment = {{"LD_DEBUG", "files"}}})
+        .err;
+  };
+  EXPECT_THAT(opened("osmesa", "a.png"), AllOf(HasSubstr("libOSMesa"), Not(HasSubstr("libavcodec"))));
+  EXPECT_THAT(opened("auto", "b.png"), AllOf(HasSubstr("libassimp"), Not(HasSubstr("libOSMesa")), Not(HasSubstr("libavcodec"))));
 }
 
 // Two copies of the same inputs, seen by two users from different folders at different times.
