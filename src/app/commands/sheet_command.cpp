@@ -47,9 +47,9 @@ void leave_out_faces(Scene& scene, bool quiet) {
 }
 
 // What a small picture shows: all that is drawn, without the words around it.
-void set_for_cell(Scene& scene, ThemeName theme, double text_scale) {
+void set_for_cell(Scene& scene, ThemeName theme, double text_scale, double aspect) {
   scene.video.height = 1000;
-  scene.video.width = int(std::lround(scene.video.height * kCellPageAspect));
+  scene.video.width = int(std::lround(scene.video.height * aspect));
   scene.video.preset = Preset::overlay;
   scene.video.names_panels = text_scale >= 1;  // words can be read there
   scene.theme = theme;
@@ -93,7 +93,7 @@ void leave_out_plots(Scene& scene, bool quiet) {
 // What all cells of a page share.
 struct Page {
   ThemeName theme;
-  double text_scale;
+  double text_scale, aspect;  // inside cells
   const Fonts& fonts;
   const std::vector<AskedInstant>& asked;
   std::size_t scenes;
@@ -119,8 +119,8 @@ ScenesCells cells_of(const std::string& file, const SheetOptions& options, const
   leave_out_faces(film.scene, options.common.quiet);
   leave_out_plots(film.scene, options.common.quiet);
   for (PreparedScene& panel : film.panels) panel.scene.plot.clear();
-  set_for_cell(film.scene, page.theme, page.text_scale);
-  for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.text_scale);
+  set_for_cell(film.scene, page.theme, page.text_scale, page.aspect);
+  for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.text_scale, page.aspect);
   std::vector<AskedInstant> asked = page.asked;
   for (AskedInstant& one : asked)
     if (one.event.empty()) one.at = std::min(one.at, film.scene.duration);
@@ -199,7 +199,7 @@ void run_sheet(const SheetOptions& options) {
   if (is_of_one) look.title = std::filesystem::path(options.scenes.front()).stem().string();
   const ContactGrid grid = contact_grid(int(std::min<std::size_t>(count, kMostCells + 1)), look);
   Json told = Json::array();
-  const ScenesCells shown = cells_of(options, {theme, text_scale_in(grid), fonts, asked, options.scenes.size()}, told);
+  const ScenesCells shown = cells_of(options, {theme, text_scale_in(grid), grid.page_aspect(), fonts, asked, options.scenes.size()}, told);
   if (is_of_one && !shown.title.empty()) look.title = shown.title;
   const Picture sheet = draw_contact_sheet(contact_grid(int(count), look), shown.cells, look);
   ClipMemory memory = memory_of_sheet(*options.command, shown.cells);

@@ -78,6 +78,7 @@ Cut cut_page(int columns, int lines, const Rect& inside, double text_scale) {
   const double room = (inside.height() - (lines - 1) * kBetweenColumns) / lines - cut.caption;
   cut.height = std::min(cut.width / kCellAspect, room);
   cut.width = cut.height * kCellAspect;
+  cut.height = std::clamp(room, cut.height, cut.width / kTallestCell);
   return cut;
 }
 
@@ -90,9 +91,9 @@ int best_columns(int count, const Rect& inside, double text_scale) {
   int best = 1;
   double largest = 0;
   for (int columns = 1; columns <= count; ++columns) {
-    const double height = cut_page(columns, lines_of(count, columns), inside, text_scale).height;
-    if (height <= largest * (1 + 1e-9)) continue;
-    largest = height;
+    const double width = cut_page(columns, lines_of(count, columns), inside, text_scale).width;
+    if (width <= largest * (1 + 1e-9)) continue;
+    largest = width;
     best = columns;
   }
   return best;

@@ -12,9 +12,8 @@
 namespace chainreel {
 
 inline constexpr int kMostCells = 48;
-inline constexpr double kCellAspect = 16.0 / 9.0;  // of each picture
-// The page that a picture is drawn on is larger: its outer margin is cut off.
-inline constexpr double kCellPageAspect = kCellAspect * (1 - 2 * size::kMargin) + 2 * size::kMargin;
+// Of each picture. Where the page has room above and below, pictures are as tall as the second.
+inline constexpr double kCellAspect = 16.0 / 9.0, kTallestCell = 4.0 / 3.0;
 
 struct ContactSheetLook {
   double aspect = 16.0 / 9.0;
@@ -32,6 +31,12 @@ struct ContactGrid {
   double smallest_text = 0;  // of all words
   int title_lines = 2;
   std::vector<Rect> pictures, titles;
+
+  // Of the page that a picture is drawn on, which is larger: its outer margin is cut off.
+  double page_aspect() const {
+    const Rect& cell = pictures.front();
+    return cell.width() / cell.height() * (1 - 2 * size::kMargin) + 2 * size::kMargin;
+  }
 };
 
 // Throws Error (usage) where that many cells leave nothing to see: more than kMostCells, or too many columns.
@@ -42,7 +47,7 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look);
 double text_scale_in(const ContactGrid& grid);
 
 struct ContactCell {
-  Picture picture;  // a page of kCellPageAspect
+  Picture picture;  // of the grid's page_aspect
   std::string title;
 };
 // One cell a place of the grid. Titles are broken into lines at spaces; what does not fit ends in "...".

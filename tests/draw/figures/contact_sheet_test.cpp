@@ -143,7 +143,8 @@ TEST(ContactGrid, HasRoomForAnyNumberOfPictures) {
     for (int i = 0; i < count; ++i) {
       const Rect& picture = grid.pictures[std::size_t(i)];
       const Rect& title = grid.titles[std::size_t(i)];
-      EXPECT_NEAR(picture.width() / picture.height(), kCellAspect, 1e-9);
+      EXPECT_LE(picture.width() / picture.height(), kCellAspect * (1 + 1e-9));
+      EXPECT_GE(picture.width() / picture.height(), kTallestCell * (1 - 1e-9));
       EXPECT_GE(picture.x0, size::kMargin - kSheetRoundOff);
       EXPECT_LE(picture.x1, kAspect - size::kMargin + kSheetRoundOff);
       EXPECT_LE(picture.y1, 1 - size::kMargin + kSheetRoundOff);
@@ -156,12 +157,23 @@ TEST(ContactGrid, HasRoomForAnyNumberOfPictures) {
   }
 }
 
+// An upright page of six pictures in two columns has room below them, which a chain that swings all around can use.
+TEST(ContactGrid, HasTallerPicturesWhereThePageHasRoom) {
+  ContactSheetLook upright = look();
+  upright.aspect = 1 / 1.4142;
+  const ContactGrid grid = contact_grid(6, upright), row = contact_grid(9, look());
+  EXPECT_EQ(grid.columns, 2);
+  EXPECT_LT(grid.pictures[0].width() / grid.pictures[0].height(), 1.35);  // 1.78 before
+  EXPECT_LT(grid.page_aspect(), grid.pictures[0].width() / grid.pictures[0].height()) << "the margin is cut off all around";
+  EXPECT_NEAR(row.pictures[0].width() / row.pictures[0].height(), kCellAspect, 1e-9) << "three lines leave none";
+}
+
 TEST(ContactGrid, TakesTheColumnsThatMakePicturesLargest) {
   for (const int count : {2, 5, 17, 48}) {
-    const double chosen = contact_grid(count, look()).pictures[0].height();
+    const double chosen = contact_grid(count, look()).pictures[0].width();
     for (int columns = 1; columns <= count; ++columns) {
       try {
-        EXPECT_LE(contact_grid(count, look(1, columns)).pictures[0].height(), chosen * (1 + 1e-6));
+        EXPECT_LE(contact_grid(count, look(1, columns)).pictures[0].width(), chosen * (1 + 1e-6));
       } catch (const Error&) {
         continue;  // too small to show anything
       }
