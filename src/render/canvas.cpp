@@ -12,7 +12,6 @@
 #include "core/machine.hpp"
 #include "render/batch.hpp"
 #include "render/changes.hpp"
-#include "render/gl_backend.hpp"
 #include "render/gl_painter.hpp"
 #include "render/glyph_atlas.hpp"
 #include "render/renderer_pins.hpp"
@@ -43,10 +42,10 @@ std::uint32_t* pixels_of(Image& image) {
   return reinterpret_cast<std::uint32_t*>(image.bgra.data());
 }
 
-// A colour multiplied by its opacity, as OpenGL clears a page with it: halves become even.
-std::uint32_t pixel_of(const Color& color) {
-  const auto level = [&color](double c) { return std::uint32_t(std::nearbyint(float(color.a * c / 255) * 255.0F)); };
-  return level(255) << 24 | level(color.r) << 16 | level(color.g) << 8 | level(color.b);
+// Of a page that OpenGL has cleared: halves become even.
+std::uint32_t pixel_of(const std::array<float, 4>& rgba) {
+  const auto level = [](float c) { return std::uint32_t(std::nearbyint(c * 255.0F)); };
+  return level(rgba[3]) << 24 | level(rgba[0]) << 16 | level(rgba[1]) << 8 | level(rgba[2]);
 }
 
 }  // namespace
@@ -54,6 +53,7 @@ std::uint32_t pixel_of(const Color& color) {
 struct Canvas::State {
   int width, height;
   PageUse use = PageUse::film;
+  bool by_opengl = opengl_draws(use);
   std::optional<ComingRenderer> coming;  // none where the static layer is another canvas's
   std::unique_ptr<GlPainter> gl;
   WindowPainter painter;
@@ -87,14 +87,13 @@ struct Canvas::State {
 
   PixelBox whole() const { return {0, 0, width, height}; }
 
-  // None where pages are filled in memory.
-  GlPainter* opengl() {
-    if (gl) return gl.get();
+  GlPainter& opengl() {
+    if (gl) return *gl;
     // What failed once is tried anew by who draws again.
     std::optional<ComingRenderer> one;
     std::swap(one, coming);
     gl = one ? one->arrived() : ComingRenderer(width, height, use).arrived();
-    return gl.get();
+    return *gl;
   }
 
   void set(const Picture& picture) {
@@ -135,19 +134,19 @@ struct Canvas::State {
   void draw_whole(const Color& background, Image& page) {
     changed.fill();
     windows.set(batch, changed);
-    if (GlPainter* const by = opengl(); by != nullptr) return draw_by(*by, background, page);
-    std::fill_n(pixels_of(page), std::size_t(width) * std::size_t(height), pixel_of(background));
+    if (by_opengl) return draw_by(opengl(), background, page);
+    std::fill_n(pixels_of(page), std::size_t(width) * std::size_t(height), pixel_of(cleared_to(background)));
     draw_in_memory(page);
   }
 
-  void draw_by(GlPainter& opengl, const Color& background, Image& page) {
-    opengl.draw(background, windows, batch, atlas, [&](const Run& run) {
+  void draw_by(GlPainter& by, const Color& background, Image& page) {
+    by.draw(background, windows, batch, atlas, [&](const Run& run) {
       const std::vector<PixelBox> boxes = boxes_of_solids(run);
-      opengl.read(boxes, page);
+      by.read(boxes, page);
       draw_solids(run, boxes, page);
-      opengl.write(boxes, page);
+      by.write(boxes, page);
     });
-    opengl.read({whole()}, page);
+    by.read({whole()}, page);
   }
 
   // What of the batch lies in the changed tiles, over the static layer.
@@ -204,7 +203,7 @@ ComingRenderer& ComingRenderer::operator=(ComingRenderer&&) noexcept = default;
 ComingRenderer::~ComingRenderer() = default;
 
 std::unique_ptr<GlPainter> ComingRenderer::arrived() {
-  return painter_.valid() ? painter_.get() : nullptr;
+  return painter_.get();
 }
 
 Canvas::Canvas(int width, int height, const Fonts& fonts, PageUse use) : Canvas(ComingRenderer(width, height, use), fonts) {}
@@ -221,8 +220,7 @@ Canvas::Canvas(std::shared_ptr<const StaticLayer> layer, const Fonts& fonts)
 Canvas::~Canvas() = default;
 
 RendererInfo Canvas::info() const {
-  const GlPainter* const opengl = state_->opengl();
-  return opengl != nullptr ? opengl->info() : RendererInfo{"none", "chainreel", "none"};
+  return state_->by_opengl ? state_->opengl().info() : RendererInfo{"none", "chainreel", "none"};
 }
 
 void Canvas::set_static_layer(const Picture& picture) {
@@ -242,7 +240,7 @@ std::shared_ptr<const StaticLayer> Canvas::static_layer() const {
 
 const CanvasFrame& Canvas::draw(const Picture& picture) {
   State& s = *state_;
-  if (!s.static_layer && picture.fixed > 0 && opengl_draws(s.use)) {
+  if (!s.static_layer && picture.fixed > 0 && s.by_opengl) {
     set_static_layer(picture.part(0, picture.fixed));
     draw(picture.part(picture.fixed, picture.items.size()));
     s.static_layer.reset();

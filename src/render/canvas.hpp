@@ -12,6 +12,7 @@
 #include "core/pixel_box.hpp"
 #include "picture/picture.hpp"
 #include "picture/text.hpp"
+#include "render/gl_backend.hpp"
 
 namespace chainreel {
 
@@ -20,10 +21,6 @@ struct RendererInfo {
   std::string renderer;  // GL_RENDERER, alike on all processors
   std::string version;   // GL_VERSION; "none"
 };
-
-// What a page is drawn for. For a picture by itself OpenGL's library would take longer to open than all else takes, so that it is
-// opened for one only where --gl asks for it.
-enum class PageUse { film, still };
 
 // While no canvas draws by OpenGL: its libraries' code, some 60 MB, need not lie in memory.
 void give_renderer_back();
@@ -53,7 +50,7 @@ class ComingRenderer {
   ComingRenderer& operator=(ComingRenderer&&) noexcept;
   ~ComingRenderer();  // waits for it
 
-  // Once; throws what made it fail. None where pages of this use are filled in memory.
+  // Once; throws what made it fail. Not where pages of this use are filled in memory.
   std::unique_ptr<GlPainter> arrived();
 
  private:

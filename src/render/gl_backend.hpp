@@ -4,7 +4,6 @@
 #include <span>
 
 #include "core/names.hpp"
-#include "render/canvas.hpp"
 
 namespace chainreel {
 
@@ -15,7 +14,10 @@ std::span<const Name> names_of(GlBackend);
 // To be called before the first context of the process.
 void choose_gl_backend(GlBackend backend);
 
-// Whether pages are drawn by a context, those that lie under films and those that are pictures by themselves.
+// What a page is drawn for: it lies under a film, or is a picture by itself. For one of these OpenGL's library would take longer to
+// open than all else takes.
+enum class PageUse { film, still };
+// Whether pages of this use are drawn by a context, else filled in memory: pictures only where --gl names a library.
 bool opengl_draws(PageUse use);
 
 }  // namespace chainreel

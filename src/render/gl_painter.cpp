@@ -65,6 +65,11 @@ void require_page(int width, int height) {
   require_memory(kBytesOfPixel * width * height, words_of_page(width, height));
 }
 
+std::array<float, 4> cleared_to(const Color& background) {
+  const auto level = [&background](int c) { return float(background.a * c / 255); };
+  return {level(background.r), level(background.g), level(background.b), float(background.a)};
+}
+
 GlPainter::GlPainter(int width, int height)
     : width_(width),
       height_(height),
@@ -152,8 +157,8 @@ void GlPainter::draw(const Color& background, const Windows& windows, const Batc
   context_->make_current();
   upload(windows, atlas);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, page_.framebuffer());
-  const auto level = [&background](int c) { return float(background.a * c / 255); };
-  gl_.ClearColor(level(background.r), level(background.g), level(background.b), float(background.a));
+  const auto [r, g, b, a] = cleared_to(background);
+  gl_.ClearColor(r, g, b, a);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
   gl_.Enable(GL_BLEND);
   for (const Run& run : windows.runs()) {

@@ -23,6 +23,9 @@ RendererInfo info_of(const GlContext& context);
 // Throws Error (exit 7) where no page is so large, or memory is too short for it.
 void require_page(int width, int height);
 
+// Red, green, blue and opacity of a page that shows nothing but this: multiplied by its opacity.
+std::array<float, 4> cleared_to(const Color& background);
+
 class GlPainter {
  public:
   // Throws Error (exit 4) where there is no OpenGL 3.3 core context, exit 7 where the size is beyond its

@@ -98,6 +98,17 @@ TEST(ManySnapshots, AnEventIsAnInstant) {
               HasSubstr("did you mean 'low'?"));
 }
 
+// What is behind a sign of equality is no instant of its own, with the event's text for the picture's name.
+TEST(ManySnapshots, AnEventWithoutANameMayHaveASignOfEquality) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("lift.yaml", "model: " + (fs::path(CHAINREEL_SOURCE_FOLDER) / "models/rr.urdf").string() +
+                                                          "\nduration: 2\nmethod: rk4\nvideo: {width: 160, height: 90}\ntorque: [40, 0]\n"
+                                                          "events: [{when: \"q1 >= 1\"}]\n");
+  const ProgramResult result = run_program({"snapshot", scene, "--at", "event q1 >= 1", "-o", folder.file("a.png"), "--quiet"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_LT(recall(folder.file("a.png")).audit["at"], 0.5);
+}
+
 TEST(ManySnapshots, UnnamedPosesInOneFileStayOnePicture) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program(chainreel::with({"snapshot", "models/rr.urdf", "--pose", "0,0", "--pose", "1,1", "-o",

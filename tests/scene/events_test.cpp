@@ -25,6 +25,16 @@ TEST(AskedInstants, ArePartedByCommasOutsideOfBracketsAndNamesOfEvents) {
   EXPECT_THAT(parted_instants("1s, soon"), ElementsAre("1s", " soon")) << "no event is named, so that this is a mistake";
 }
 
+// `event q1 >= 1` is no picture named "event q1 >" at 1 s.
+TEST(AskedInstants, HaveNamesInFrontButNotOfPartsOfEvents) {
+  EXPECT_EQ(named_instant("event q1 >= 1").name, "");
+  EXPECT_EQ(named_instant("event q1 >= 1").text, "event q1 >= 1");
+  EXPECT_EQ(named_instant("up=event q1 >= 1").name, "up");
+  EXPECT_EQ(named_instant("up=event q1 >= 1").text, "event q1 >= 1");
+  EXPECT_EQ(named_instant("start=0").name, "start");
+  EXPECT_THROW(named_instant("=0"), Error);
+}
+
 class Events : public WrittenScenes {
  protected:
   // The error of reading and preparing a scene of the human that stands.

@@ -47,9 +47,10 @@ void leave_out_faces(Scene& scene, bool quiet) {
 }
 
 // What a small picture shows: all that is drawn, without the words around it.
-void set_for_cell(Scene& scene, ThemeName theme, double text_scale, double aspect) {
+void set_for_cell(Scene& scene, ThemeName theme, const ContactGrid& grid) {
+  const double text_scale = text_scale_in(grid);
   scene.video.height = 1000;
-  scene.video.width = int(std::lround(scene.video.height * aspect));
+  scene.video.width = int(std::lround(scene.video.height * grid.page_aspect()));
   scene.video.preset = Preset::overlay;
   scene.video.names_panels = text_scale >= 1;  // words can be read there
   scene.theme = theme;
@@ -93,10 +94,18 @@ void leave_out_plots(Scene& scene, bool quiet) {
 // What all cells of a page share.
 struct Page {
   ThemeName theme;
-  double text_scale, aspect;  // inside cells
-  const Fonts& fonts;
+  ContactSheetLook look;
+  std::size_t count;  // of cells
+  ContactGrid grid = contact_grid(int(std::min<std::size_t>(count, kMostCells + 1)), look);
   const std::vector<AskedInstant>& asked;
   std::size_t scenes;
+
+  // The title of the only scene stands above its instants.
+  bool is_of_one() const { return scenes == 1 && asked.size() > 1; }
+  void set_title(const std::string& title) {
+    look.title = title;
+    grid = contact_grid(int(count), look);
+  }
 };
 
 // Of several instants each says which it is; of several scenes whose.
@@ -107,48 +116,46 @@ std::string title_of_cell(const Moment& moment, const Scene& scene, const Page& 
   return page.scenes == 1 ? time : time + ": " + title;
 }
 
-struct ScenesCells {
-  std::vector<ContactCell> cells;
-  std::string title;  // of the scene
-};
-
 // A cell an instant that is asked for. `told` gets what they show in numbers. A run that is over by then shows its end.
-ScenesCells cells_of(const std::string& file, const SheetOptions& options, const Page& page, Json& told) {
+std::vector<ContactCell> cells_of(const std::string& file, const SheetOptions& options, Page& page, Json& told) {
   PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
   say_notices(film.panels, options.common.quiet);
   leave_out_faces(film.scene, options.common.quiet);
   leave_out_plots(film.scene, options.common.quiet);
   for (PreparedScene& panel : film.panels) panel.scene.plot.clear();
-  set_for_cell(film.scene, page.theme, page.text_scale, page.aspect);
-  for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.text_scale, page.aspect);
+  if (page.is_of_one()) {
+    const std::string title = title_of_page(film.scene);
+    page.set_title(title.empty() ? std::filesystem::path(file).stem().string() : title);
+  }
+  set_for_cell(film.scene, page.theme, page.grid);
+  for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.grid);
   std::vector<AskedInstant> asked = page.asked;
   for (AskedInstant& one : asked)
     if (one.event.empty()) one.at = std::min(one.at, film.scene.duration);
-  Moments moments(film, page.fonts);
+  Moments moments(film, *page.look.fonts);
   std::vector<Moment> shown;
   if (asked.empty()) shown.push_back(moments.telling());
   for (const double at : instants_asked(film, asked)) shown.push_back(moments.moment(at));
-  ScenesCells found{{}, title_of_page(film.scene)};
+  std::vector<ContactCell> cells;
   for (Moment& moment : shown) {
-    if (found.cells.empty()) tell_warnings(moment.warnings);
+    if (cells.empty()) tell_warnings(moment.warnings);
     told.push_back({{"scene", file}});
     told.back().update(moment.numbers);
-    found.cells.push_back({std::move(moment.picture), title_of_cell(moment, film.scene, page)});
+    cells.push_back({std::move(moment.picture), title_of_cell(moment, film.scene, page)});
   }
-  return found;
+  return cells;
 }
 
 // The problems of all scenes are told at once.
-ScenesCells cells_of(const SheetOptions& options, const Page& page, Json& told) {
-  ScenesCells all;
+std::vector<ContactCell> cells_of(const SheetOptions& options, Page& page, Json& told) {
+  std::vector<ContactCell> all;
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
   for (const std::string& file : options.scenes) {
     throw_if_interrupted();
     try {
-      ScenesCells own = cells_of(file, options, page, told);
-      std::ranges::move(own.cells, std::back_inserter(all.cells));
-      all.title = own.title;
+      std::vector<ContactCell> own = cells_of(file, options, page, told);
+      std::ranges::move(own, std::back_inserter(all));
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
       code = error.code();
@@ -193,19 +200,18 @@ void run_sheet(const SheetOptions& options) {
   const ThemeName theme = theme_of(options.common.flags);
   const Fonts fonts;
   const SheetSize size = size_of(options);
-  ContactSheetLook look{double(size.width) / size.height, options.columns, "", size.text_scale, &theme_named(to_string(theme)), &fonts};
-  // The title of the only scene stands above its instants.
-  const bool is_of_one = options.scenes.size() == 1 && asked.size() > 1;
-  if (is_of_one) look.title = std::filesystem::path(options.scenes.front()).stem().string();
-  const ContactGrid grid = contact_grid(int(std::min<std::size_t>(count, kMostCells + 1)), look);
+  Page page{.theme = theme,
+            .look = {double(size.width) / size.height, options.columns, "", size.text_scale, &theme_named(to_string(theme)), &fonts},
+            .count = count,
+            .asked = asked,
+            .scenes = options.scenes.size()};
   Json told = Json::array();
-  const ScenesCells shown = cells_of(options, {theme, text_scale_in(grid), grid.page_aspect(), fonts, asked, options.scenes.size()}, told);
-  if (is_of_one && !shown.title.empty()) look.title = shown.title;
-  const Picture sheet = draw_contact_sheet(contact_grid(int(count), look), shown.cells, look);
-  ClipMemory memory = memory_of_sheet(*options.command, shown.cells);
+  const std::vector<ContactCell> cells = cells_of(options, page, told);
+  const Picture sheet = draw_contact_sheet(page.grid, cells, page.look);
+  ClipMemory memory = memory_of_sheet(*options.command, cells);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   for (const std::string& output : outputs) write_picture(sheet, size.width, size.height, fonts, output, options.common.force, memory);
-  tell_files(options.common, outputs, [&] { return Json{{"columns", grid.columns}, {"lines", grid.lines}, {"cells", told}}; });
+  tell_files(options.common, outputs, [&] { return Json{{"columns", page.grid.columns}, {"lines", page.grid.lines}, {"cells", told}}; });
 }
 
 }  // namespace

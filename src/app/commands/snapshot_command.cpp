@@ -140,31 +140,18 @@ class Pictures {
   std::unique_ptr<Canvas> canvas_;
 };
 
-// A text of --at or --pose, maybe with a name in front: home=0,90deg.
-struct Named {
-  std::string name;  // "": none was given
-  std::string text;
-};
-
-Named named_of(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) return {"", text};
-  if (equals == 0) throw Error(ExitCode::usage, "'" + text + "' has no name in front of the =");
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-// The same of a pose, where a name in front may be a joint's: elbow=90deg has none, home=elbow=90deg has.
-Named named_pose(const Chain& chain, const std::string& text) {
-  const Named named = named_of(text);
+// As named_text, of a pose, where a name in front may be a joint's: elbow=90deg has none, home=elbow=90deg has.
+NamedText named_pose(const Chain& chain, const std::string& text) {
+  const NamedText named = named_text(text);
   const std::vector<std::string> coordinates = position_names(chain);
   const bool is_joint = std::find(coordinates.begin(), coordinates.end(), named.name) != coordinates.end();
-  return is_joint ? Named{"", text} : named;
+  return is_joint ? NamedText{"", text} : named;
 }
 
 // The name of a pose may have been to be a joint's, where one number is no pose.
 void refuse_mistyped_joints(const Chain& chain, const std::vector<std::string>& poses) {
   for (const std::string& text : poses) {
-    const Named named = named_pose(chain, text);
+    const NamedText named = named_pose(chain, text);
     if (named.name.empty() || named.text.find_first_of(",=") != std::string::npos || chain.nq == 1) continue;
     if (const std::string near = did_you_mean(named.name, position_names(chain)); !near.empty())
       throw Error(ExitCode::usage, "--pose " + text + ": " + chain.name + " has no coordinate '" + named.name + "':" + near);
@@ -190,7 +177,7 @@ void snapshot_scene(const SnapshotOptions& options) {
   const std::string stem = std::filesystem::path(options.file).stem().string();
   for (const std::string& text : options.at.empty() ? std::vector<std::string>{"0"} : options.at)
     for (const std::string& part : parted_instants(text)) {
-      const Named named = named_of(part);
+      const NamedText named = named_instant(part);
       asked.push_back(asked_at(named.text, text));
       names.push_back(file_name_of(named.name.empty() ? stem + "_" + asked.back().name() : named.name));
     }
@@ -232,7 +219,7 @@ std::vector<PosePicture> pose_pictures(const Chain& chain, const SnapshotOptions
   const std::string stem = std::filesystem::path(options.file).stem().string();
   std::vector<PosePicture> pictures;
   for (const std::string& text : options.poses) {
-    const Named named = named_pose(chain, text);
+    const NamedText named = named_pose(chain, text);
     const std::string numbers = named_pose_text(chain, options.file, named.text, "--pose");
     const std::vector<double> q = parse_pose(chain, numbers, "--pose");
     const std::string own_name = named.name.empty() && numbers != named.text ? named.text : named.name;

@@ -50,6 +50,7 @@ void require_playable(const GalleryClip& clip) {
     throw Error(ExitCode::bad_input, "is named " + lower_case_ending(clip.path) + " but holds " + clip.start.container, {clip.path});
   // A moving picture is read from its start on, and plays without its end.
   const std::string end = kind == "gif" ? ";" : kind == "apng" ? "IEND\xAE\x42\x60\x82" : "";
+  if (end.empty()) return;
   std::ifstream stream(clip.path, std::ios::binary);
   std::string last(end.size(), ' ');
   stream.seekg(-std::streamoff(end.size()), std::ios::end);

@@ -12,16 +12,16 @@ std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-// Calls `visit` with the path of each table of a scene, constant or not.
+// Calls `visit` with the path of each table of a scene, constant or not, and the table where it has been read: else null.
 template <class AnyScene, class Visit>
 void for_each_table(AnyScene& scene, const Visit& visit) {
   const auto of_control = [&visit](auto& control) {
     for (auto* path : {&control.csv, &control.inverse_of})
-      if (!path->empty()) visit(*path);
-    if (control.pd && !control.pd->trajectory.empty()) visit(control.pd->trajectory);
-    if (control.computed_torque && !control.computed_torque->trajectory.empty()) visit(control.computed_torque->trajectory);
+      if (!path->empty()) visit(*path, nullptr);
+    if (control.pd && !control.pd->trajectory.empty()) visit(control.pd->trajectory, nullptr);
+    if (control.computed_torque && !control.computed_torque->trajectory.empty()) visit(control.computed_torque->trajectory, nullptr);
   };
-  if (scene.motion) visit(scene.motion->csv);
+  if (scene.motion) visit(scene.motion->csv, scene.motion->table.get());
   if (scene.control) of_control(*scene.control);
   for (auto& entry : scene.torque)
     if (entry.control) of_control(*entry.control);
@@ -31,17 +31,15 @@ void for_each_table(AnyScene& scene, const Visit& visit) {
 
 Json driving_tables(const Scene& scene) {
   Json hashes = Json::object();
-  for_each_table(scene, [&](const std::string& path) {
-    // A recorded motion is read already.
-    const bool is_motion = scene.motion && &path == &scene.motion->csv;
+  for_each_table(scene, [&](const std::string& path, const Table* table) {
     const std::string others = hashes.value(name_of(path), "");  // of another folder
-    hashes[name_of(path)] = others + (others.empty() ? "" : " ") + sha256_of(is_motion ? *scene.motion->table : read_csv(path));
+    hashes[name_of(path)] = others + (others.empty() ? "" : " ") + (table != nullptr ? sha256_of(*table) : sha256_of(read_csv(path)));
   });
   return hashes;
 }
 
 Scene with_named_tables(Scene scene) {
-  for_each_table(scene, [](std::string& path) { path = name_of(path); });
+  for_each_table(scene, [](std::string& path, const Table*) { path = name_of(path); });
   return scene;
 }
 

@@ -136,9 +136,9 @@ void PlotStrip::draw_static(Picture& picture) const {
   std::vector<EndLabel> ends;
   for (const StripCurve& curve : data_.curves) {
     draw_part(picture, frame_, curve.points, curve.style, *style_.theme, kPale);
-    if (curve.label.empty() || curve.points.empty()) continue;
     const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [](const Point& p) { return std::isfinite(p.y); });
-    const Point end = frame_.at(last != curve.points.rend() ? *last : Point{curve.points.back().x, frame_.y.low});
+    if (curve.label.empty() || last == curve.points.rend()) continue;
+    const Point end = frame_.at(*last);
     ends.push_back({{end.x, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);

@@ -40,7 +40,7 @@ struct SceneKey : KeyText {
   FlagGroup flags = FlagGroup::none;
   std::string flag;      // "--theme"
   OfModel of_model = OfModel::no;
-  bool is_seen_at_poses = false;  // a mechanism's, of which pictures of a pose show more than the mechanism's other numbers
+  bool is_seen_at_poses = false;  // of the mechanism, and seen in pictures of a pose, as a payload's disc is
   std::string absent;    // what holds where the key is left out, where that is no value of its own
   std::string hint;      // behind the message about a value out of range
   std::string infinity;  // the word for a number without end

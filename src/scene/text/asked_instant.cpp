@@ -38,17 +38,15 @@ std::string AskedInstant::name() const {
   return event.empty() ? format_shortest(at) + "s" : event;
 }
 
-namespace {
-
-// Without the name that may stand in front: `start=event touch`.
-std::string unnamed(const std::string& part) {
-  const std::string text = trimmed(part);
-  return is_event(text) ? text : trimmed(text.substr(text.find('=') + 1));
+NamedText named_instant(const std::string& part) {
+  return is_event(trimmed(part)) ? NamedText{"", part} : named_text(part);
 }
+
+namespace {
 
 // Whether a part of a list is an instant by itself: names of events may hold commas, too.
 bool begins_an_instant(const std::string& part) {
-  const std::string text = unnamed(part);
+  const std::string text = trimmed(named_instant(part).text);
   if (text.empty() || is_event(text)) return true;
   try {
     parse_quantity(text, {}, "s");
@@ -71,7 +69,7 @@ std::vector<std::string> parted_instants(const std::string& text) {
       parts.back() += c;
   }
   for (std::size_t i = 1; i < parts.size();) {
-    if (!is_event(unnamed(parts[i - 1])) || begins_an_instant(parts[i])) {
+    if (!is_event(trimmed(named_instant(parts[i - 1]).text)) || begins_an_instant(parts[i])) {
       ++i;
       continue;
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "scene/text/picture_names.hpp"
 
 namespace chainreel {
 
@@ -15,6 +16,9 @@ struct AskedInstant {
   // "1.2s" or the event's name: one for an instant, however it was written.
   std::string name() const;
 };
+
+// As named_text, but events, whose own texts may hold signs of equality, have a name in front only of the word `event`.
+NamedText named_instant(const std::string& part);
 
 // Commas part instants, but not within brackets, max(1, 2), nor within the name of an event, where what follows is no instant.
 std::vector<std::string> parted_instants(const std::string& text);

@@ -26,6 +26,13 @@ std::string where(const Place& place) {
 
 }  // namespace
 
+NamedText named_text(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return {"", text};
+  if (equals == 0) throw Error(ExitCode::usage, "'" + text + "' has no name in front of the =");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
 std::string file_name_of(const std::string& name) {
   std::string fit = printable(name);  // bytes that are no text are written out
   for (char& c : fit)

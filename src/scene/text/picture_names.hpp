@@ -8,6 +8,14 @@
 
 namespace chainreel {
 
+// A text that may have a picture's name in front: home=0,90deg.
+struct NamedText {
+  std::string name;  // "": none was given
+  std::string text;
+};
+// Throws Error (usage) where the name is missing.
+NamedText named_text(const std::string& text);
+
 // Letters, digits and . _ - + stay, and what is no ASCII; all else becomes _, as does a . or - at the
 // beginning, so that no file is hidden or read as a flag. Never empty.
 std::string file_name_of(const std::string& name);
