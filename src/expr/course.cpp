@@ -98,7 +98,7 @@ Course course_of(Operation operation, const Course& x, double side) {
       if (side == -1) return {Range{} - v, Range{} - d};
       if (v.low >= 0) return x;
       if (v.high <= 0) return {Range{} - v, Range{} - d};
-      return {hull(v, Range{} - v), hull(d, Range{} - d)};
+      return {{0, std::max(-v.low, v.high)}, hull(d, Range{} - d)};
   }
 }
 
@@ -159,35 +159,50 @@ Course course_of(Operation operation, const Course& a, const Course& b, double s
 }
 
 Course start(const Instruction& one, std::span<const VariableUse> uses, double a, double b) {
-  if (one.operation == Operation::pi) return {{kPi, kPi}, {}};
-  if (one.operation == Operation::number) return {{one.number, one.number}, {}};
   const VariableUse& use = uses[std::size_t(one.slot)];
   if (use.role == VariableRole::time) return {{a, b}, {1, 1}};
   return {{use.value, use.value}, {}};
 }
 
+// `variable(instruction)` and `side(index)` say what a variable is, and at which side of its corner an instruction stands.
+template <class Variable, class Side>
+Course follow(const std::vector<Instruction>& instructions, std::vector<Course>& stack, Variable&& variable, Side&& side) {
+  stack.clear();
+  for (std::size_t i = 0; i < instructions.size(); ++i) {
+    const Instruction& one = instructions[i];
+    const int change = stack_change_of(one.operation);
+    if (change > 0) {
+      stack.push_back(one.operation == Operation::pi       ? Course{{kPi, kPi}, {}}
+                      : one.operation == Operation::number ? Course{{one.number, one.number}, {}}
+                                                           : variable(one));
+      continue;
+    }
+    const Course last = stack.back();
+    if (change == 0) {
+      stack.back() = course_of(one.operation, last, side(i));
+      continue;
+    }
+    stack.pop_back();
+    stack.back() = course_of(one.operation, stack.back(), last, side(i));
+  }
+  return stack.back();
+}
+
 }  // namespace
 
 Course Courses::over(const CorneredProgram& program, std::span<const double> sides, double a, double b) {
-  stack_.clear();
-  for (std::size_t i = 0; i < program.instructions.size(); ++i) {
-    const Instruction& one = program.instructions[i];
-    const int change = stack_change_of(one.operation);
-    if (change > 0) {
-      stack_.push_back(start(one, uses_, a, b));
-      continue;
-    }
-    const CorneredProgram::Turn turn = program.turns[i];
-    const double side = turn.corner < 0 ? kAsWritten : turn.sign * sides[std::size_t(turn.corner)];
-    const Course last = stack_.back();
-    if (change == 0) {
-      stack_.back() = course_of(one.operation, last, side);
-      continue;
-    }
-    stack_.pop_back();
-    stack_.back() = course_of(one.operation, stack_.back(), last, side);
-  }
-  return stack_.back();
+  return follow(program.instructions, stack_, [&](const Instruction& one) { return start(one, uses_, a, b); },
+                [&](std::size_t i) {
+                  const CorneredProgram::Turn turn = program.turns[i];
+                  return turn.corner < 0 ? kAsWritten : turn.sign * sides[std::size_t(turn.corner)];
+                });
+}
+
+Range values_of(const Program& program) {
+  std::vector<Course> stack;
+  return follow(program.instructions, stack, [](const Instruction&) { return Course{kAnything, kAnything}; },
+                [](std::size_t) { return kAsWritten; })
+      .value;
 }
 
 }  // namespace chainreel

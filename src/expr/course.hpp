@@ -13,12 +13,17 @@ struct Range {
   double low = 0, high = 0;
   bool has_zero() const { return low <= 0 && high >= 0; }
   bool is_zero() const { return low == 0 && high == 0; }
+  bool has_both_signs() const { return low < 0 && high > 0; }
 };
 
 // What values a function of t takes over a piece of time, and its slope.
 struct Course {
   Range value, slope;
 };
+
+// Between which numbers a program lies whatever its variables are, as its operations tell it one by one: |x| is never below zero, but
+// x - x may be anything.
+Range values_of(const Program& program);
 
 // The courses of programs over the same variables, all of which but t are constants.
 class Courses {

@@ -124,6 +124,8 @@ ModelDescription describe_model(const ModelSource& source, const ModelOptions& o
   model.friction = options.friction;
   model.massless = options.massless;
   if (chain.end_effector >= 0) model.end_effector = chain.frames[std::size_t(chain.end_effector)].name;
+  if (options.payload.mass > 0) model.payload = options.payload;
+  if (options.payload.mass > 0 && options.payload.link.empty()) model.payload.link = model.end_effector;
   Describer describer(file, options);
   for (const UrdfLink& link : file.links) {
     DescribedLink one{link.name, link.line, link.inertial, {}, {}};
@@ -318,6 +320,10 @@ ModelDescription read(const Json& json) {
   model.friction = json.at("friction").get<bool>();
   if (json.contains("massless")) model.massless = json["massless"].get<double>();
   model.end_effector = json.at("end_effector").get<std::string>();
+  if (json.contains("payload")) {
+    const Json& payload = json["payload"];
+    model.payload = {payload.at("mass").get<double>(), payload.at("link").get<std::string>(), vector_of<3>(payload.at("at"))};
+  }
   for (const Json& one : json.at("coordinates"))
     model.coordinates.push_back({one.at("name").get<std::string>(), one.at("unit").get<std::string>()});
   for (const Json& one : json.at("meshes")) {
@@ -339,6 +345,7 @@ Json to_json(const ModelDescription& model) {
             {"friction", model.friction}};
   if (model.massless) json["massless"] = *model.massless;
   json["end_effector"] = model.end_effector;
+  if (model.payload.mass > 0) json["payload"] = {{"mass", model.payload.mass}, {"link", model.payload.link}, {"at", json_of<3>(model.payload.at)}};
   json["root"] = model.root;
   json["coordinates"] = Json::array();
   for (const DescribedCoordinate& one : model.coordinates)

@@ -56,6 +56,7 @@ struct ModelDescription {
   bool friction = true;
   std::optional<double> massless;
   std::string end_effector;  // "": there is none
+  Payload payload;           // its link by name
 };
 
 enum class DescribeCollisions {

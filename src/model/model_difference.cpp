@@ -56,6 +56,11 @@ constexpr LimitValue kLimits[] = {
      }},
 };
 
+std::string payload_text(const Payload& payload) {
+  if (!(payload.mass > 0)) return "none";
+  return format_shortest(payload.mass) + " kg at " + vector_text(payload.at) + " of " + payload.link;
+}
+
 class ModelComparison {
  public:
   ModelComparison(const ModelDescription& before, const ModelDescription& after)
@@ -267,9 +272,15 @@ class ModelComparison {
     if (before_.massless != after_.massless)
       tell(ModelChange::reading,
            "mass of links without inertia " + change_text(mass(before_.massless), mass(after_.massless)));
-    std::string end = before_.end_effector;
-    for (std::size_t i = 0; i < before_.links.size(); ++i)
-      if (before_.links[i].name == end) end = link_now(int(i));
+    const auto link_named_now = [this](std::string name) {
+      for (std::size_t i = 0; i < before_.links.size(); ++i)
+        if (before_.links[i].name == name) return link_now(int(i));
+      return name;
+    };
+    Payload payload = before_.payload;
+    payload.link = link_named_now(payload.link);
+    if (payload != after_.payload) tell(ModelChange::mass, "payload " + change_text(payload_text(payload), payload_text(after_.payload)));
+    const std::string end = link_named_now(before_.end_effector);
     const auto named = [](const std::string& name) { return name.empty() ? "none" : name; };
     if (end != after_.end_effector)
       tell(ModelChange::reading, "end effector " + change_text(named(end), named(after_.end_effector)));

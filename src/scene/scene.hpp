@@ -49,7 +49,7 @@ struct Video {
   std::optional<Preset> preset;  // of the outputs; absent: by their endings
   std::optional<double> crf;  // of films, 0 best; absent: 18 for H.264, 28 for VP9
   double least_text = 0;  // units of H: no word is lower, of pages that have a size on paper. Not a key
-  bool names_panels = false;  // where its preset leaves out all other words, too. Not a key
+  double panel_names = 0;  // units of H: names of panels are that large, also where the preset leaves out all other words; 0: as usual. Not a key
 };
 
 struct Hold {

@@ -21,8 +21,6 @@ namespace {
 constexpr double kDifference = 6e-6;
 // Rounding of forces that cancel, over that difference; beside the largest entry.
 constexpr double kNoise = 1e-9;
-// Rows of the constraints that are multiples of others.
-constexpr double kSameRow = 1e-9;
 
 struct Slopes {
   Eigen::MatrixXd K, D;  // d acceleration / d q and / d v, nv x nv
@@ -30,6 +28,7 @@ struct Slopes {
 
 struct State {
   std::vector<double> q, qd;
+  double t = 0;
 };
 
 constexpr double kLooks[] = {0.0, 0.31, 0.62, 1.0};  // parts of the duration at which what should rest is looked at
@@ -66,25 +65,13 @@ Slopes slopes_of(ChainSystem& system, const Simulation& simulation, const State&
           v[j] += dx;
         else
           system.advance(q, unit, dx);
-        system.acceleration(0, q, v, side[above]);
+        system.acceleration(place.t, q, v, side[above]);
       }
       Eigen::MatrixXd& slope = of_velocity ? slopes.D : slopes.K;
       for (std::size_t i = 0; i < n; ++i)
         slope(Eigen::Index(i), Eigen::Index(j)) = (side[1][i] - side[0][i]) / (2 * kDifference);
     }
   return slopes;
-}
-
-// Directions that the constraints leave free: columns of length 1 at right angles, nv rows.
-Eigen::MatrixXd free_directions(ChainSystem& system, const Simulation& simulation) {
-  const Eigen::Index n = simulation.chain.nv;
-  if (!system.constrained()) return Eigen::MatrixXd::Identity(n, n);
-  const ConstraintSet& set = system.constrained()->set();
-  ConstrainedWorkspace cws(simulation.chain, set);
-  compute_constraints(simulation.chain, system.workspace(), set, cws, simulation.q0, simulation.qd0);
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::MatrixXd Jc = Eigen::Map<const Rows>(cws.Jc.data(), set.rows(), n);
-  return null_space(Jc, kSameRow);
 }
 
 // What differences leave where there is nothing: it would make slow rates of none.
@@ -140,7 +127,70 @@ std::optional<State> held_state(ChainSystem& system, const Simulation& simulatio
   return std::nullopt;
 }
 
+// A run by another method, which gets its own back.
+class LookedAt {
+ public:
+  explicit LookedAt(Simulation& simulation)
+      : simulation_(simulation), own_{simulation.method, simulation.options, simulation.step}, motion_only_(simulation.motion_only), most_(simulation.most_evaluations) {}
+  ~LookedAt() {
+    apply(own_, simulation_);
+    simulation_.motion_only = motion_only_;
+    simulation_.most_evaluations = most_;
+  }
+  LookedAt(const LookedAt&) = delete;
+  LookedAt& operator=(const LookedAt&) = delete;
+
+ private:
+  Simulation& simulation_;
+  MethodSetting own_;
+  bool motion_only_;
+  long most_;
+};
+
+// At instants of the run, as far as it can be looked at cheaply.
+std::vector<State> states_along(Simulation& simulation) {
+  constexpr int kInstants = 32;
+  constexpr long kMostEvaluations = 20000;
+  const LookedAt own(simulation);
+  apply({&find_method("dop853"), {1e-6, 0}, 0}, simulation);
+  simulation.motion_only = true;
+  simulation.most_evaluations = kMostEvaluations;
+  std::vector<double> times;
+  for (int k = 0; k <= kInstants; ++k) times.push_back(simulation.duration * k / kInstants);
+  const Trajectory trajectory = simulate(simulation, times);
+  std::vector<State> states;
+  for (int k = 0; k < trajectory.size(); ++k) {
+    const ConstVec q = trajectory.q_at(k), qd = trajectory.qd_at(k);
+    states.push_back({{q.begin(), q.end()}, {qd.begin(), qd.end()}, trajectory.t[std::size_t(k)]});
+  }
+  return states;
+}
+
+// The motion at instants of the run, and about the rest near its start and its end.
+std::vector<LinearMotion> motions_along(ChainSystem& system, Simulation& simulation) {
+  std::vector<LinearMotion> motions;
+  const auto add = [&](const State& place) {
+    const Slopes slopes = slopes_of(system, simulation, place);
+    if (slopes.K.allFinite() && slopes.D.allFinite()) motions.push_back(without_noise({slopes.K, slopes.D}));
+  };
+  const std::vector<State> states = states_along(simulation);
+  simulation.torque->leave_pieces();
+  for (const State& place : states) add(place);
+  for (const std::vector<double>& guess : {simulation.q0, states.empty() ? simulation.q0 : states.back().q})
+    if (const std::optional<State> rest = equilibrium_from(system, simulation, guess)) add(*rest);
+  return motions;
+}
+
 }  // namespace
+
+std::complex<double> Linearisation::fastest() const {
+  std::complex<double> fastest = rates.empty() ? 0 : rates.back();
+  for (const LinearMotion& one : along) {
+    const std::vector<std::complex<double>> own = rates_of(one);
+    if (!own.empty() && std::abs(own.back()) > std::abs(fastest)) fastest = own.back();
+  }
+  return fastest;
+}
 
 Linearisation linearise(const Simulation& simulation) {
   Linearisation start;
@@ -162,7 +212,9 @@ Linearisation linearise(const Simulation& simulation) {
     start.trouble = "accelerations about the start are not finite";
     return start;
   }
-  const Eigen::MatrixXd T = free_directions(system, simulation);
+  const Eigen::Index n = simulation.chain.nv;
+  const Eigen::MatrixXd T = system.constrained() ? free_directions(simulation.chain, system.workspace(), system.constrained()->set(), simulation.q0)
+                                                 : Eigen::MatrixXd::Identity(n, n);
   if (T.cols() == 0) {
     start.trouble = "constraints leave nothing free";
     return start;
@@ -174,8 +226,28 @@ Linearisation linearise(const Simulation& simulation) {
   return start;
 }
 
+Linearisation linearise_along(Simulation& simulation) {
+  Linearisation start = linearise(simulation);
+  // What is stiffer than the start, a run that begins elsewhere than at rest may pass.
+  const bool stays = start.is_equilibrium && !start.about_target;
+  if (stays || simulation.chain.nq != simulation.chain.nv || !simulation.constraints.empty()) return start;
+  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
+  start.along = motions_along(system, simulation);
+  return start;
+}
+
 std::optional<double> longest_stable_step(const Method& method, const Linearisation& start) {
-  return start.motion ? stability_limit(method, *start.motion) : std::nullopt;
+  std::optional<double> shortest = start.motion ? stability_limit(method, *start.motion) : std::nullopt;
+  for (const LinearMotion& one : start.along)
+    if (const auto limit = stability_limit(method, one)) shortest = std::min(shortest.value_or(*limit), *limit);
+  return shortest;
+}
+
+std::optional<bool> is_stable_step(const Method& method, const Linearisation& start, double h) {
+  std::optional<bool> stable = start.motion ? is_stable(method, *start.motion, h) : std::nullopt;
+  for (const LinearMotion& one : start.along)
+    if (const auto here = is_stable(method, one, h)) stable = stable.value_or(true) && *here;
+  return stable;
 }
 
 }  // namespace chainreel

@@ -1,5 +1,5 @@
-// The motion of a chain linearised about its start, or about the rest to which its feedback brings it: what decides whether a step
-// is stable there.
+// The motion of a chain linearised about its start, or about the rest to which its feedback brings it, and along its run: what
+// decides whether a step is stable there.
 #pragma once
 
 #include <complex>
@@ -25,14 +25,24 @@ struct Linearisation {
   // equilibrium, and what holds there need not hold later.
   double rate = 0, acceleration = 0;
   bool is_equilibrium = true;
+  // Of a run that does not begin at rest, besides: the motion at instants of it, and about the rest that lies near its start or its
+  // end. Empty of floating bases and under constraints, where no more than the start is known.
+  std::vector<LinearMotion> along;
+
+  // Of all that is looked at: the fastest rate.
+  std::complex<double> fastest() const;
 };
 
-Linearisation linearise(const Simulation& simulation);
+Linearisation linearise(const Simulation& simulation);  // without `along`
+// The run is looked at by another method; its own is kept.
+Linearisation linearise_along(Simulation& simulation);
 
 // The largest magnitude among its numbers; 0 of none.
 double largest_of(const std::vector<double>& x);
 
-// As stability_limit: nothing where it is not known.
+// As stability_limit and is_stable, of all that is looked at: the shortest, and whether it is so everywhere; nothing where it is not
+// known.
 std::optional<double> longest_stable_step(const Method& method, const Linearisation& start);
+std::optional<bool> is_stable_step(const Method& method, const Linearisation& start, double h);
 
 }  // namespace chainreel

@@ -91,7 +91,7 @@ class Run {
       integrator_->interpolate(0.5 * (begin + now()), q_, qd_);
     ++trajectory_.steps;
     trajectory_.end_time = now();
-    if (watch_ && !look_for_events(begin)) return false;
+    if (watch_ && !look_for_events()) return false;
     look_at_limits();
     start_anew_ = next.is_break && now() == next.end;
     return makes_headway();
@@ -340,13 +340,13 @@ class Run {
     return -1;
   }
 
-  bool look_for_events(double begin) {
+  bool look_for_events() {
     const bool good = (steps() > 1 || watch_->start(0, simulation_.q0, simulation_.qd0, trajectory_.events)) &&
                       watch_->check_step(*integrator_, trajectory_.events);
     system_.forget_bad_torque();
     if (!good) {
       const Event& event = simulation_.events->list[std::size_t(watch_->bad_event())];
-      set_trouble(RunStatus::event_not_finite, "the event '" + event.name + "' is not a finite number", begin);
+      set_trouble(RunStatus::event_not_finite, "the event '" + event.name + "' is not a finite number", watch_->bad_instant());
       return false;
     }
     if (!watch_->has_ended()) return true;

@@ -65,7 +65,7 @@ TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
   for (const std::string& file : {film, still, drawing, snapshot}) {
     const ProgramResult same = asked(file);
     EXPECT_EQ(same.status, 0) << file << same.out << same.err;
-    EXPECT_EQ(Json::parse(same.out)["is_same"], true);
+    EXPECT_EQ(Json::parse(same.out)["films"][0]["is_same"], true);
     for (const char* change : {"start.q.2=0.1", "step=0.0005", "theme=dark", "title=T", "end_effector=link1", "video.crf=20"})
       EXPECT_EQ(asked(file, {"--set", change}).status, 1) << file << " " << change;
   }
@@ -135,6 +135,38 @@ TEST(FilmOfToday, OfAFolderFindsItsScenesAndNamesWhatChanged) {
   EXPECT_EQ(run_program({"check", folder.file("docs/a.mp4"), "--scene", a}).status, 0);
   EXPECT_EQ(run_program({"check", folder.file("docs")}).status, 2);
   EXPECT_EQ(run_program({"check", folder.file("scenes"), "--today"}).status, 3);
+}
+
+// What is stale is made anew as it was made, and nothing else is: with the --set of its own, in the same words as before.
+TEST(FilmOfToday, TellsTheCommandsThatMakeItAnew) {
+  const TemporaryFolder folder;
+  const std::string page = "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nduration: 0.3\nmethod: rk4\nvideo: {width: 160, height: 90}\n";
+  const std::string scene = folder.write("it's a scene.yaml", page), film = folder.file("docs/a film.mp4"), still = folder.file("docs/still.png");
+  const auto make = [&](const std::string& at) {
+    EXPECT_EQ(run_program({"render", scene, "--quiet", "--force", "-o", at, "--set", "duration=0.1", "--theme", "dark"}).status, 0);
+  };
+  make(film);
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", folder.file("docs/b.mp4")}).status, 0);
+  ASSERT_EQ(run_program({"render", scene, "--at", "0.15", "--quiet", "-o", still}).status, 0);
+  const auto commands = [&] { return run_program({"check", folder.file("docs"), "--today", "--commands"}); };
+  EXPECT_EQ(commands().status, 0);
+  EXPECT_EQ(commands().out, "");
+  folder.write("it's a scene.yaml", page + "title: Another\n");
+  const ProgramResult stale = commands();
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_EQ(std::count(stale.out.begin(), stale.out.end(), '\n'), 3);
+  const Json json = Json::parse(run_program({"check", film, "--today", "--json"}).out);
+  ASSERT_EQ(json["films"].size(), 1u) << "of one film as of several";
+  EXPECT_THAT(json["films"][0]["set"].dump(), HasSubstr("duration=0.1"));
+  EXPECT_EQ(json["films"][0]["command"][0], "chainreel");
+  RunOptions shell;
+  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
+  ASSERT_EQ(run_command({"sh", "-e", "-c", stale.out}, shell).status, 0) << stale.out;
+  EXPECT_EQ(commands().status, 0) << commands().err;
+  make(folder.file("wanted.mp4"));
+  EXPECT_TRUE(read_whole_file(film) == read_whole_file(folder.file("wanted.mp4")));
+  EXPECT_EQ(run_program({"check", film, "--commands"}).status, 2);
+  EXPECT_EQ(run_program({"check", film, "--today", "--commands", "--json"}).status, 2);
 }
 
 // A film in a folder of the folder, whose torques stand in a table; and a scene that cannot be read any more.

@@ -290,7 +290,7 @@ TEST(StabilityCommand, PutsTheBorderWhereTheTheoryHasIt) {
     failed += omega_h > 2;
   }
   EXPECT_GT(failed, 20);
-  EXPECT_THAT(result.out, HasSubstr("That is no equilibrium")) << "the scene starts away from its spring's rest";
+  EXPECT_THAT(result.out, HasSubstr("and at instants of the run")) << "the scene starts away from its spring's rest";
 }
 
 TEST(StabilityCommand, DrawsAMapOfEachMethodThatIsNamed) {
@@ -320,7 +320,7 @@ TEST(StabilityCommand, ComparesTheMethodsWithoutAMap) {
   ASSERT_EQ(result.status, 0) << result.err;
   // omega = 10 rad/s: 2 / omega and 2 sqrt(2) / omega; implicit methods have no limit.
   EXPECT_THAT(result.out, AllOf(HasSubstr("Who fails here"), HasSubstr("0.2828"), HasSubstr("diverged"),
-                                HasSubstr("omega = 10 rad/s"), HasSubstr("no equilibrium")));
+                                HasSubstr("omega = 10 rad/s"), HasSubstr("and at instants of the run")));
   for (const char* method : {"radau5", "implicit_midpoint", "gauss4", "gauss6"})
     EXPECT_EQ(last_word(line_of(result.out, method)), "none") << method;
   EXPECT_EQ(last_word(line_of(result.out, "explicit_euler")), "0");

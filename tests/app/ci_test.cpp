@@ -141,6 +141,18 @@ TEST_F(PastedIntoCi, APackageIsInstalledInsteadOfBuilding) {
   EXPECT_NE(run_command({"bash", "-e", "-o", "pipefail", "-c", step_of("assets/ci/github.yml", "name: Install")}, options).status, 0);
 }
 
+// Pasted as it is it says what is still wanted, before anything is fetched.
+TEST_F(PastedIntoCi, WithoutAPackageOrARepositoryItSaysWhatToSet) {
+  RunOptions options = here();
+  options.environment["CHAINREEL_DEB"] = options.environment["CHAINREEL_SOURCE"] = "";
+  const std::string file = read_whole_file("assets/ci/gitlab-ci.yml"), gitlab = file.substr(file.find("if [ -n \"$CHAINREEL_DEB\""), file.find("\n  script:") - file.find("if [ -n \"$CHAINREEL_DEB\""));
+  for (const std::string& step : {step_of("assets/ci/github.yml", "name: Install"), gitlab}) {
+    const ProgramResult result = run_command({"bash", "-e", "-o", "pipefail", "-c", step}, options);
+    EXPECT_EQ(result.status, 2) << step;
+    EXPECT_THAT(result.err, HasSubstr("set CHAINREEL_DEB"));
+  }
+}
+
 TEST_F(PastedIntoCi, PytestHasATestAPicture) {
   fs::copy_file("assets/ci/test_snapshots.py", folder_.path() / "test_snapshots.py");
   const Words words = {"pytest-3", "-v", "-p", "no:cacheprovider", "test_snapshots.py"};

@@ -147,6 +147,12 @@ TEST_F(CompareFilm, SnapshotDrawsThePanelsAlsoBehindTheEndOfOne) {
   EXPECT_FALSE(fs::exists(folder_.file("never.png")));
 }
 
+// Of two --set of one key the later holds, as without panels.
+TEST_F(CompareFilm, LaterSettingsReplaceEarlierOnes) {
+  for (const auto& [first, later] : {std::pair{"duration=1", "duration=0.5"}, {"torque.1=5", "torque=[0, 0]"}})
+    EXPECT_EQ(run_program({"check", "assets/scenes/euler_gains_energy.yaml", "--set", first, "--set", later}).status, 0) << first;
+}
+
 TEST_F(CompareFilm, VaryIsACompareWithoutAFile) {
   const std::string written = scene(
       "compare:\n  - {method: rk4, parameters.k: 100}\n  - {method: rk4, parameters.k: 50}\n"

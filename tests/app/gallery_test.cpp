@@ -11,6 +11,7 @@
 #include "app/gallery/gallery_page.hpp"
 #include "app/report/page_template.hpp"
 #include "core/hash.hpp"
+#include "core/json.hpp"
 #include "encode/film_start.hpp"
 #include "encode/png.hpp"
 #include "encode/video_writer.hpp"
@@ -106,6 +107,48 @@ TEST(Gallery, ShowsAWebmBesideAnotherFilmOfItsName) {
 }
 
 // A render that was killed leaves such a file, one that runs writes it.
+// Figures and sheets stand below the films; what goes with a film does not stand there once more.
+TEST(Gallery, ShowsPicturesBelowItsFilms) {
+  const TemporaryFolder folder;
+  render(folder, "a.mp4");
+  const auto ellipse = [&](const std::string& name, const std::string& title) {
+    ASSERT_EQ(run_program({"ellipse", "models/rr.urdf", "--pose", "0,1", "--title", title, "--width", "320", "--height", "180", "--quiet", "-o", folder.file(name)}).status, 0);
+  };
+  ellipse("figure.png", "Heavy <along> the arm");
+  ellipse("figure_2.svg", "A drawing");
+  ellipse("paper.pdf", "Of paper alone");
+  ellipse("a_chart.png", "It goes with the film");
+  folder.write("photo.png", std::string(read_whole_file(folder.file("figure.png"))).substr(0, 100));  // remembers nothing
+  const ProgramResult result = gallery(folder, {"--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["pictures"], 2);
+  EXPECT_THAT(result.err, testing::AllOf(HasSubstr("paper.pdf"), HasSubstr("show .png and .svg")));
+  const std::string text = page(folder), section = text.substr(text.find("<section class=\"pictures\""));
+  EXPECT_THAT(section, HasSubstr("data:image/png;base64," + base64(read_whole_file(folder.file("figure.png")))));
+  EXPECT_THAT(section, HasSubstr("data:image/svg+xml;base64," + base64(read_whole_file(folder.file("figure_2.svg")))));
+  EXPECT_THAT(section, HasSubstr("Heavy &lt;along&gt; the arm"));
+  EXPECT_THAT(section, Not(HasSubstr("It goes with the film")));
+  EXPECT_THAT(text, HasSubstr("One film, 0.2 s long, and 2 pictures."));
+  // Pictures alone are a page, too; another program's has its name; what is only named so is none.
+  const std::string own = folder.file("own/index.html");
+  ASSERT_EQ(run_program({"gallery", folder.file("figure.png"), "-o", own}).status, 0);
+  EXPECT_THAT(read_whole_file(own), HasSubstr("<p>one picture.</p>"));
+  EXPECT_EQ(run_program({"gallery", folder.write("b.svg", "no drawing"), "-o", own}).status, 3);
+  EXPECT_THAT(run_program({"gallery", folder.file("paper.pdf"), "-o", own}).err, HasSubstr("pictures as .png and .svg"));
+}
+
+// A smaller clip has fewer frames than were drawn: its own are told.
+TEST(Gallery, TellsTheFramesOfTheClipItself) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"render", "assets/scenes/pp_free.yaml", "-o", folder.file("a.gif"), "--quiet", "--set", "duration=1", "--set", "video.width=160", "--set",
+                         "video.height=90", "--set", "text_scale=1.5"}).status, 0);
+  const int frames = probe_video(folder.file("a.gif")).frames;
+  ASSERT_EQ(gallery(folder).status, 0);
+  EXPECT_LT(frames, 60);
+  EXPECT_THAT(page(folder), HasSubstr(std::to_string(frames) + " frames"));
+  EXPECT_THAT(page(folder), Not(HasSubstr("60 frames")));
+}
+
 TEST(Gallery, LeavesFilmsThatAreBeingWritten) {
   const TemporaryFolder folder;
   const std::string film = render(folder, "a.mp4");

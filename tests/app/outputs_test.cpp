@@ -547,7 +547,7 @@ std::string captions_with(const std::vector<std::string>& settings) {
 TEST(Outputs, CaptionsStandForAsLongAsOneReadsThem) {
   EXPECT_EQ(captions_with({"duration=3",
                            "events=[{when: t - 0.5, name: a}, {when: t - 0.501, name: b}, {when: t - 1, name: c}, {when: t - 1.6, name: d}]"}),
-            "1\n00:00:00,500 --> 00:00:01,000\na\nb\n\n2\n00:00:01,000 --> 00:00:01,600\nc\n\n3\n00:00:01,600 --> 00:00:03,000\nd\n\n");
+            "1\n00:00:00,501 --> 00:00:01,000\na\nb\n\n2\n00:00:01,000 --> 00:00:01,600\nc\n\n3\n00:00:01,600 --> 00:00:03,000\nd\n\n");
 }
 
 // Nothing is told before it happens, and words that the film stands still for stand as long as it does.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/csv.hpp"
 #include "core/json.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -114,6 +115,31 @@ TEST_F(PushedScene, IsSweptByItsNumbers) {
   const Json table = Json::parse(read_whole_file(folder_.file("a.json")));
   EXPECT_EQ(table["qd1"][0], 0.0) << "nothing moves";
   EXPECT_GT(std::abs(table["qd1"][1].get<double>()), 0.1);
+}
+
+// What holds the joints beside a push stands on the page: M qdd + h = tau + J^T F.
+TEST_F(PushedScene, StandsInTheEquationOnThePage) {
+  const auto page = [&](const Words& more) {
+    const std::string file = folder_.file("page.svg");
+    const ProgramResult result = run_program(with({"snapshot", scene(), "--at", "0.3", "--set", "draw=[+equation]", "--force", "-o", file}, more));
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_whole_file(file);
+  };
+  EXPECT_NE(page({}), page({"--set", "push="}));
+}
+
+// A contact force is what the constraint bears, pushes or none: its control knows of them.
+TEST_F(PushedScene, ChangesNoContactForce) {
+  const std::string file = folder_.write(
+      "pressed.yaml", "model: {links: [0.5, 0.4, 0.3], masses: [2, 1.5, 1], damping: 0.3}\nstart: {q: [1.1889, -0.526846, -1.47727]}\n"
+                      "torque: {gravity_compensation: true, plus: [1, -qd2, 0]}\npush: [{frame: link2, force: [20, 0], from: 0.1, until: 0.3}]\n"
+                      "constraints: [{line: {frame: gripper, point: [0, 0.35], direction: [1, 0.2]}}]\ncontact_force: {constraint: 1, force: [0, -8]}\n"
+                      "duration: 0.4\n");
+  ASSERT_EQ(run_program({"simulate", file, "--columns", "t,lambda", "-o", folder_.file("l.csv")}).status, 0);
+  const Table table = read_csv(folder_.file("l.csv"));
+  ASSERT_GT(table.rows(), 20u);
+  // 8 N down on a line whose normal is (-1, 5) / sqrt(26). Rounding of some 10 N, through the solution for the multipliers.
+  for (const double lambda : table.columns[1]) EXPECT_NEAR(lambda, -8 * 5 / std::sqrt(26), 1e-9);
 }
 
 // Two numbers are those of the plane in which the chain moves, wherever that lies.

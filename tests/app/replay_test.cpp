@@ -202,6 +202,19 @@ TEST_F(Replay, InverseTakesTheLogOfAScene) {
   EXPECT_THAT(good({"check", folder.file("own.yaml")}).out, HasSubstr("joint1: \"shoulder [deg]\""));
 }
 
+// Of a mechanism that presses on its ties, too, torques are held against those that the log itself tells.
+TEST_F(Replay, InverseOfATiedRunFindsItsOwnTorques) {
+  const std::string scene = folder.write("tied.yaml", "model: {links: [1, 1], masses: [1, 1]}\ngravity: [0, 0, 0]\nstart: {q: [60deg, -120deg]}\n"
+                                                       "constraints: [{line: {frame: gripper, point: [0, 0], direction: [1, 0]}}]\n"
+                                                       "contact_force: {force: [0, -5]}\nduration: 0.5\n");
+  good({"simulate", scene, "--columns", "t,q,qd,qdd,tau,lambda", "-o", folder.file("tied.csv")});
+  const std::string said = good({"inverse", scene, "--trajectory", folder.file("tied.csv"), "-o", folder.file("tau.csv")}).err;
+  EXPECT_THAT(said, HasSubstr("which differ by "));
+  double off = 1;
+  std::sscanf(said.c_str() + said.find("differ by ") + 10, "%lf", &off);
+  EXPECT_LT(off, 1e-12) << said;  // rounding of 5 N m
+}
+
 TEST_F(Replay, OneUnitIsToldOfAColumn) {
   folder.write("log.csv", "t,a [rad],b\n0,0,0\n1,1,1\n");
   EXPECT_THAT(refusal("motion: {csv: log.csv, columns: {joint1: \"a [deg]\", joint2: b}}\n"), HasSubstr("remove one of the units"));

@@ -130,6 +130,39 @@ TEST(Sheet, NamesThePanelsOfComparisonsWhereThereIsRoom) {
   EXPECT_THAT(drawn(2), testing::Not(HasSubstr("Baumgarte<")));
 }
 
+// What a run tells of itself stands in the title of its instants, too; and the title may be another one.
+TEST(Sheet, HasItsTitleFilledIn) {
+  const TemporaryFolder folder;
+  const auto pixels = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"sheet", "humanoid_fall", "--at", "0,1,2", "--force", "--quiet", "-o", folder.file("a.png")};
+    command.insert(command.end(), more.begin(), more.end());
+    EXPECT_EQ(run_program(command).status, 0);
+    return read_png(folder.file("a.png")).bgra;
+  };
+  const auto own = pixels({});
+  EXPECT_TRUE(own == pixels({"--title", "A standing human falls in 1.65 s"}));
+  EXPECT_FALSE(own == pixels({"--title", "A standing human falls in {fall}"}));
+}
+
+// On paper words are of a paper's size: more of them stand below a picture than on a slide.
+TEST(Sheet, OnPaperHasWordsOfAPaper) {
+  const TemporaryFolder folder;
+  const auto size_of_words = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"sheet", "rr_free", "rr_torque", "--width-mm", "210", "--force", "--quiet", "-o", folder.file("a.pdf")};
+    command.insert(command.end(), more.begin(), more.end());
+    EXPECT_EQ(run_program(command).status, 0);
+    return read_whole_file(folder.file("a.pdf"));
+  };
+  EXPECT_NE(size_of_words({}), size_of_words({"--text-scale", "1.5"}));
+  EXPECT_NE(size_of_words({}), size_of_words({"--text-scale", "0.8"})) << "down to 7 pt";
+  // Of A4 upright a caption has room for some 100 letters.
+  const std::string scene = folder.write("long.yaml", "title: A pen that is held at y = 0.6 m while it goes along its line, and what it presses with on the paper below\nmodel: {links: [1, 1]}\nduration: 0.1\n");
+  const std::string pdf = folder.file("long.pdf");
+  ASSERT_EQ(run_program({"sheet", scene, "rr_free", "pen", "--width-mm", "210", "--quiet", "-o", pdf}).status, 0);
+  const ProgramResult words = run_command({"pdftotext", pdf, "-"}, {});
+  EXPECT_THAT(words.out, HasSubstr("paper below")) << words.err;
+}
+
 TEST(Sheet, TellsTheProblemsOfAllScenes) {
   const TemporaryFolder folder;
   const std::string bad = folder.write("bad.yaml", "model: none.urdf\ndurration: 3\n");

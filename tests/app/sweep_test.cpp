@@ -158,6 +158,16 @@ TEST(SweepTable, SaysWhereItsPeaksAreLargestAndWhoPassesLimits) {
   EXPECT_EQ(told[0]["run"], 2);
 }
 
+// Where no run has a larger peak than the others, none is named.
+TEST(SweepTable, SaysThatPeaksAreTheSameInAllRuns) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({"sweep", "rr_torque", "--set", "duration=0.2", "--set", "torque=[3, 1]", "--over", "start.q.1=0,0.5", "--peaks", "tau,qd", "-o",
+                                            folder.file("a.csv")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("tau1 [N m]: 3, the same in all runs"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("qd1 .*, in run "));
+}
+
 TEST(SweepTable, HasThePeaksOfTheRunsByThemselves) {
   const TemporaryFolder folder;
   const Words set{"--set", "duration=1", "--set", "torque=[0.5 * sin(7 * t), -0.2]", "--set", "method=rk4", "--set", "step=0.1ms"};

@@ -109,6 +109,15 @@ TEST_F(Units, SingleEntriesOfAListThatWasLeftOutStartFromTheDefault) {
     EXPECT_EQ(run_program({"sweep", scene, "--over", over, "-o", folder_.file("s.csv"), "--force"}).status, 0) << over;
 }
 
+// Of vectors, too, whose list may have been left out.
+TEST_F(Units, SingleNumbersOfAVectorStandBesideItsDefaults) {
+  const ProgramResult one = run_program({"check", "rr_free", "--set", "payload.mass=1", "--set", "payload.at.2=0.1"});
+  EXPECT_EQ(one.status, 0) << one.err;
+  EXPECT_THAT(one.out, HasSubstr("[0, 0.1, 0]"));
+  EXPECT_THAT(run_program({"check", "rr_free", "--set", "payload.mass=1", "--set", "payload.at.4=0.1"}).err, HasSubstr("there is no '4'"));
+  EXPECT_THAT(run_program({"check", "rr_free", "--set", "payload.mass=1", "--set", "payload.at=1"}).err, HasSubstr("x y z: [0.1, 0, 0]"));
+}
+
 TEST_F(Units, StartsAreWrittenByJointOrByPlace) {
   EXPECT_EQ(hash({"start.q.joint2=90deg", "start.qd.joint1=1"}), hash({"start.q=[0, 90deg]", "start.qd=[1, 0]"}));
   EXPECT_EQ(hash({"start.q={joint2: 90deg, 1: 0.1}"}), hash({"start.q=[0.1, 90deg]"}));

@@ -63,6 +63,25 @@ TEST_F(Verify, NamesAMassThatNoPictureShows) {
   EXPECT_EQ(verify().status, 0);
 }
 
+// A payload is part of the mechanism, also where the suite says so: no picture of bars shows its mass.
+TEST_F(Verify, NamesAPayloadThatASuiteChanges) {
+  write("loads.yaml", "model: rr.urdf\nposes: {p: [0, 0]}\nsize: 160x90\nvariants: {none: {payload.mass: 0}, heavy: {payload.mass: 3}}\n");
+  ASSERT_EQ(verify({"--missing", "write"}, "loads.yaml").status, 0);
+  EXPECT_EQ(verify({}, "loads.yaml").status, 0);
+  const auto state_with = [&](const std::string& before, const std::string& after, const std::string& words_in) {
+    replace("loads.yaml", before, after);
+    const ProgramResult result = verify({}, "loads.yaml");
+    EXPECT_EQ(result.status, 1) << after;
+    EXPECT_THAT(result.out, HasSubstr(words_in)) << after;
+    EXPECT_THAT(result.out, Not(HasSubstr("pixels  "))) << after;
+    replace("loads.yaml", after, before);
+  };
+  state_with("payload.mass: 3", "payload.mass: 50", "payload 3 kg at 0 0 0 of gripper -> 50 kg at 0 0 0 of gripper");
+  state_with("payload.mass: 3", "payload.mass: 3, payload.link: link1", "of gripper -> 3 kg at 0 0 0 of link1");
+  state_with("payload.mass: 0}", "payload.mass: 1}", "payload none -> 1 kg");
+  EXPECT_EQ(verify({}, "loads.yaml").status, 0);
+}
+
 TEST_F(Verify, NamesAJointThatMoved) {
   accept_all();
   replace("rr.urdf", "<origin xyz=\"1 0 0\"/>\n    <parent link=\"link1", "<origin xyz=\"1.02 0 0\"/>\n    <parent link=\"link1");

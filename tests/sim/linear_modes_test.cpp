@@ -16,8 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-double limit(const Simulation& run, const std::string& method) {
-  const auto found = longest_stable_step(find_method(method), linearise(run));
+double limit(Simulation& run, const std::string& method) {
+  const auto found = longest_stable_step(find_method(method), linearise_along(run));
   EXPECT_TRUE(found) << method;
   return found.value_or(NAN);
 }
@@ -31,7 +31,7 @@ Simulation weightless(Simulation run) {
 constexpr double kTolerance = 1e-8;
 
 TEST(Linearise, GivesTheSpringsLimits) {
-  const Simulation run = weightless(run_of("pp", {"0", "-100 * q2"}, 1));
+  Simulation run = weightless(run_of("pp", {"0", "-100 * q2"}, 1));
   EXPECT_NEAR(limit(run, "semi_implicit_euler"), 0.2, kTolerance);
   EXPECT_NEAR(limit(run, "rk4"), 0.2 * std::sqrt(2), kTolerance);
   for (const char* method : {"implicit_midpoint", "gauss4", "gauss6", "radau5"})
@@ -41,7 +41,7 @@ TEST(Linearise, GivesTheSpringsLimits) {
 
 TEST(Linearise, SeesDampersThatLetNothingSwing) {
   for (const auto& [d, expected] : {std::pair{30.0, 0.1064}, {60.0, 0.04779}}) {
-    const Simulation run = weightless(run_of("pp", {"0", "-100 * q2 - " + std::to_string(d) + " * qd2"}, 1));
+    Simulation run = weightless(run_of("pp", {"0", "-100 * q2 - " + std::to_string(d) + " * qd2"}, 1));
     EXPECT_NEAR(limit(run, "rk4"), expected, 2e-4 * expected);
     const double fastest = d / 2 + std::sqrt(d * d / 4 - 100);
     EXPECT_NEAR(limit(run, "rk4"), 2.785293563 / fastest, kTolerance);
@@ -61,7 +61,7 @@ TEST(Linearise, SaysWhereTheStartIsNoEquilibrium) {
 }
 
 TEST(Linearise, TellsNoLimitWhereNothingSwings) {
-  const Simulation run = run_of("pp", {"0", "1"}, 1);
+  Simulation run = run_of("pp", {"0", "1"}, 1);
   const Linearisation start = linearise(run);
   EXPECT_THAT(start.trouble, HasSubstr("nothing swings or decays"));
   EXPECT_FALSE(longest_stable_step(find_method("rk4"), start));
@@ -108,11 +108,12 @@ TEST(Linearise, PutsTheLimitOfAnArmUnderFeedbackWhereRunsDiverge) {
   run.torque = make_control(run.chain, control, {});
   run.q0 = {0.3, -0.7, 1.1};
   EXPECT_TRUE(linearise(run).is_equilibrium);
-  // From wherever it starts, a pose that is held is where steps must be stable.
+  // From wherever it starts, a pose that is held is where steps must be stable; on the way there they must be, too.
   const double at_target = limit(run, "semi_implicit_euler");
   run.q0 = {2, 1, -1};
   EXPECT_TRUE(linearise(run).about_target);
-  EXPECT_DOUBLE_EQ(limit(run, "semi_implicit_euler"), at_target);
+  EXPECT_DOUBLE_EQ(*longest_stable_step(find_method("semi_implicit_euler"), linearise(run)), at_target);
+  EXPECT_LT(limit(run, "semi_implicit_euler"), at_target);
   run.q0 = {0.3, -0.7, 1.1};
   // One that moves is none.
   Control moving = control;
@@ -135,6 +136,38 @@ TEST(Linearise, PutsTheLimitOfAnArmUnderFeedbackWhereRunsDiverge) {
       EXPECT_EQ(grew, factor > 1) << method << " " << factor;
     }
   }
+}
+
+// A spring at the elbow, written as text: where the arm is stretched it is stiffer than at the start, and that is where the run goes.
+// Differences of the rates from those of the same spring as feedback: rounding of slopes, a part of 1e-6.
+TEST(Linearise, TellsTheShortestLimitAlongARun) {
+  const auto with_spring = [](const std::string& method, double step) {
+    Simulation run = run_of("rr", {"0", "-4000*q2 - 2*qd2"}, 1, method, step);
+    run.q0 = {-1.5707963267948966, 0.35};
+    return run;
+  };
+  Simulation by_text = with_spring("rk4", 1e-3), by_control = with_spring("rk4", 1e-3);
+  Control control;
+  control.pd = Feedback{{0, 4000}, {0, 2}, {}, {}, {}, ""};
+  for (const char* angle : {"0", "0"}) control.pd->q.push_back({angle, {}});
+  by_control.torque = make_control(by_control.chain, control, {});
+  for (const char* method : {"rk4", "semi_implicit_euler", "verlet"}) {
+    const double h = limit(by_text, method);
+    EXPECT_NEAR(limit(by_control, method), h, 1e-6 * h) << method;
+    EXPECT_LT(h, 0.95 * *longest_stable_step(find_method(method), linearise(by_text))) << method;  // what was told once
+    EXPECT_EQ(by_text.method, &find_method("rk4"));  // its own is kept
+    EXPECT_EQ(by_text.step, 1e-3);
+    for (const double factor : {0.95, 1.1}) {
+      Simulation one = with_spring(method, factor * h);
+      const Trajectory trajectory = simulate_every_step(one);
+      // It decays with 37 /s, and what grows may stay within bounds: the spring is softer where the elbow is bent.
+      double last = 0;
+      for (int k = trajectory.size() * 4 / 5; k < trajectory.size(); ++k) last = std::max(last, std::abs(trajectory.q_at(k)[1]));
+      const bool grew = trajectory.status != RunStatus::finished || last > 0.05;
+      EXPECT_EQ(grew, factor > 1) << method << " " << factor;
+    }
+  }
+  EXPECT_EQ(by_text.most_evaluations, 0);
 }
 
 TEST(Linearise, FindsThePandasLimitUnderStiffFeedback) {

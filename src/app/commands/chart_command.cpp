@@ -18,6 +18,7 @@
 #include "core/format.hpp"
 #include "draw/charts/chart.hpp"
 #include "draw/page/house_style.hpp"
+#include "scene/run/title.hpp"
 #include "sim/choice/work_precision.hpp"
 #include "sim/plots.hpp"
 
@@ -104,7 +105,7 @@ std::string scale_text(const Measured& measured) {
 WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOptions& options) {
   WorkPrecision data;
   data.title = "Speed against accuracy";
-  data.subtitle = (prepared.scene.title.empty() ? prepared.scene.name : prepared.scene.title) + ", " +
+  data.subtitle = title_over_runs(prepared.scene) + ", " +
                   format_shortest(prepared.simulation.duration) + " s; reference: " + measured.reference.how;
   const bool is_of_energy = options.judges_energy();
   data.error_title = is_of_energy ? "largest energy error [J]" : with_joint_units("final error", prepared.simulation.chain, "rad", "m");

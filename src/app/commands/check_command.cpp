@@ -33,6 +33,7 @@ struct CheckOptions {
   std::vector<std::string> files;  // several where they are films
   std::string scene;               // that films are held against
   bool today = false;              // ... or each its own
+  bool commands = false;           // that make anew what is another thing today
   bool all = false;                // candidates of a method that is chosen
   CommonOptions common;
 
@@ -303,8 +304,10 @@ void run_check(const CheckOptions& options) {
   const bool is_of_today = options.today || !options.scene.empty();
   if (is_of_today && !are_films)
     throw Error(ExitCode::usage, "--today and --scene go with films and pictures, or a folder of them: `chainreel check FILM.mp4 --today`");
+  if (options.commands && (!is_of_today || options.common.json))
+    throw Error(ExitCode::usage, "--commands goes with --today and without --json, which has each film's `command`: chainreel check out/ --today --commands | sh");
   if (are_films && options.all) throw Error(ExitCode::usage, "--all goes with a scene, whose method is chosen");
-  if (is_of_today) return check_of_today(options.files, options.scene, options.common);
+  if (is_of_today) return check_of_today(options.files, options.scene, options.commands, options.common);
   if (options.files.size() > 1 || (are_films && std::filesystem::is_directory(options.file(), code)))
     throw Error(ExitCode::usage, "takes one scene, model or film; several films, or a folder of them, go with --today");
   if (are_films) return check_as_written(options.file(), options.common);
@@ -321,6 +324,7 @@ void add_check_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   command->add_flag("--today", options->today, "of films and pictures: would their scenes, which the audits beside them name, make the same today?");
   command->add_option("--scene", options->scene, "the same of this scene").names_input();
+  command->add_flag("--commands", options->commands, "with --today: print the commands that make anew what is another thing today, for a shell");
   command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");
   add_json_option(*command, options->common);
   command->footer("Of a film or picture all files that the audit tells of are held against their SHA-256, and the audit against what the film\n"
@@ -329,7 +333,8 @@ void add_check_command(CommandLine& app) {
                   "not; 3 where of one of several it cannot be told, whatever comes of the others. It is simulated, not drawn.\n"
                   "Example: chainreel check rr_free --set method=rk4\n"
                   "or, behind `chainreel render rr_free`: chainreel check out/rr_free.mp4\n"
-                  "                                       chainreel check out/ --today");
+                  "                                       chainreel check out/ --today\n"
+                  "                                       chainreel check out/ --today --commands | sh");
   command->callback([options] { run_check(*options); });
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/cli/result.hpp"
+#include "app/cli/shell_word.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/comparison.hpp"
 #include "app/film/clip_origin.hpp"
@@ -111,6 +112,8 @@ struct Today {
   bool has_other_versions = false;
   std::optional<Error> trouble{};  // it cannot be told
   bool knows_set = true;         // what the command line changed when it was made
+  std::vector<std::string> set{};      // that, and what is given now
+  std::vector<std::string> command{};  // what makes it anew; none where that is not known
 
   bool is_same() const { return words.empty() && facts.empty() && !trouble; }
 };
@@ -191,6 +194,23 @@ struct AskedFilm {
   OwnAudit audit;
 };
 
+// What makes it anew, as a shell's words. What has an audit beside it was made by `render`, a picture of one instant, too.
+std::vector<std::string> remaking_command(const Today& today, const ClipMemory& remembered) {
+  const Json at = remembered.audit.value("at", Json());
+  const bool is_picture = find_output_format(today.path, Shows::motion) == nullptr && at.is_number();
+  std::vector<std::string> words{"chainreel", "render", today.scene};
+  if (is_picture) words.insert(words.end(), {"--at", format_shortest(at.get<double>()) + "s"});
+  for (const std::string& one : today.set) words.insert(words.end(), {"--set", one});
+  words.insert(words.end(), {"-o", today.path, "--force"});
+  return words;
+}
+
+std::string shell_text(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_word(word);
+  return text;
+}
+
 Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const auto& [path, audit] = asked;
   const ClipMemory remembered = recall(path);
@@ -203,6 +223,8 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
   nearest.knows_set = audit.json.is_object();
+  nearest.set = changes_of(audit, common);
+  if (nearest.knows_set) nearest.command = remaking_command(nearest, remembered);
   return nearest;
 }
 
@@ -272,7 +294,7 @@ void print_today(const Today& one) {
 }
 
 Json report_of(const Today& one) {
-  return {{"file", one.path}, {"scene", one.scene}, {"is_same", one.is_same()}, {"changed", one.words}, {"audit_changed", one.facts},
+  return {{"file", one.path}, {"scene", one.scene}, {"set", one.set}, {"command", one.command}, {"is_same", one.is_same()}, {"changed", one.words}, {"audit_changed", one.facts},
           {"has_other_versions", one.has_other_versions}, {"trouble", one.trouble ? Json(one.trouble->problems().front().message) : Json(nullptr)}};
 }
 
@@ -295,7 +317,7 @@ void check_as_written(const std::string& path, const CommonOptions& common) {
   if (!check.passes()) throw Error(ExitCode::comparison_failed, "is not what its audit tells of", {path});
 }
 
-void check_of_today(const std::vector<std::string>& paths, const std::string& scene, const CommonOptions& common) {
+void check_of_today(const std::vector<std::string>& paths, const std::string& scene, bool as_commands, const CommonOptions& common) {
   const AskedFilms asked = with_folders_opened(paths);
   if (!common.quiet) tell_passed_over(asked.passed_over);
   std::vector<Today> all;
@@ -308,12 +330,16 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
       all.push_back({.path = film.path, .scene = scene, .trouble = error});
     }
   }
-  tell_result(common, [&] {
+  // For a shell nothing else is told: what is as it should be has no line.
+  const auto print_commands = [&] {
+    for (const Today& one : all)
+      if (!one.is_same() && !one.command.empty()) std::printf("%s\n", shell_text(one.command).c_str());
+  };
+  if (as_commands) print_commands();
+  else tell_result(common, [&] {
     Json films = Json::array();
     for (const Today& one : all) films.push_back(report_of(one));
-    Json report = all.size() == 1 ? films.front() : Json{{"films", films}};
-    report["passed_over"] = asked.passed_over;
-    return report;
+    return Json{{"films", films}, {"passed_over", asked.passed_over}};
   }, [&] {
     for (const Today& one : all) print_today(one);
   });
@@ -329,7 +355,7 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
         troubles.push_back(std::move(problem));
       }
     else if (!one.is_same())
-      changed.push_back({"is not what " + one.scene + " shows today: render it again", {one.path}});
+      changed.push_back({"is not what " + one.scene + " shows today: render it again" + (one.command.empty() ? "" : ", `" + shell_text(one.command) + "`"), {one.path}});
   }
   const bool is_told = troubles.empty();
   std::ranges::move(changed, std::back_inserter(troubles));

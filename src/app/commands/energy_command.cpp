@@ -17,6 +17,7 @@
 #include "core/format.hpp"
 #include "draw/charts/energy_chart.hpp"
 #include "draw/page/house_style.hpp"
+#include "scene/run/title.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/workload.hpp"
@@ -121,7 +122,7 @@ EnergySubjects compare_methods_on(PreparedScene motion, const std::vector<const 
 // Each panel with its own method, step and tolerance, where the command line says no others.
 EnergySubjects compare_panels(PreparedFilm film, const Settings& settings) {
   EnergySubjects all;
-  all.title = film.scene.title.empty() ? film.scene.name : film.scene.title;
+  all.title = title_over_runs(film.scene);
   all.scenes = std::move(film.panels);
   for (PreparedScene& panel : all.scenes) {
     Simulation& simulation = panel.simulation;
@@ -233,7 +234,7 @@ EnergyChart chart_of(const EnergySubjects& all, double until, const std::vector<
   EnergyChart chart;
   chart.shows_energy = total;
   chart.title = (total ? "Energy until " : "Energy error until ") + format_shortest(until) + " s";
-  chart.subtitle = all.settings.empty() ? all.title : (scene.title.empty() ? scene.name : scene.title) + "; " + all.settings;
+  chart.subtitle = all.settings.empty() ? all.title : title_over_runs(scene) + "; " + all.settings;
   for (const MethodRun& run : runs) chart.curves.push_back(run.curve);
   return chart;
 }

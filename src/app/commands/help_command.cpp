@@ -104,6 +104,7 @@ std::vector<GuidePage> guide_pages(const CommandLine& app) {
           {"formulas", "notation of formulas in titles and words", formulas_page},
           {"expressions", "names, operators and functions", expressions_page},
           {"constraints", "what ties a mechanism beyond its joints", constraints_page},
+          {"symbols", "what the letters mean, and which sign has what", symbols_page},
           {"methods", "the integrators, and how exact a run is", methods_page},
           {"outputs", "kinds of files, and presets", outputs_page},
           {"json", "what --json prints: the keys of every command", json_page},

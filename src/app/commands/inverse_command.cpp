@@ -71,10 +71,10 @@ Recorded load(const InverseOptions& options) {
 }
 
 // What speaks against the motion; of a scene that holds it, its doubts have been told.
-void tell_doubts(const InverseOptions& options, const RecordedMotion& motion) {
+void tell_doubts(const InverseOptions& options, const RecordedMotion& motion, const InverseAlong& inverse) {
   if (!options.trajectory.empty()) tell_warnings(motion.doubts());
   if (options.common.quiet) return;
-  for (const std::string& remark : motion.remarks()) std::fprintf(stderr, "%s\n", remark.c_str());
+  for (const std::string& remark : motion.remarks(motion.own_torques_beside(inverse.tau))) std::fprintf(stderr, "%s\n", remark.c_str());
 }
 
 // A row per instant of the trajectory: t,tau1.. and the multipliers that go with them.
@@ -104,8 +104,8 @@ void run_inverse(const InverseOptions& options) {
   std::vector<std::string> outputs = options.outputs;
   if (outputs.empty()) outputs.push_back("out/" + std::filesystem::path(table).stem().string() + "_tau.csv");
   TableFiles files(outputs, options.common);
-  tell_doubts(options, *recorded.motion);
   const InverseAlong inverse = inverse_along(recorded.chain, recorded.constraints, *recorded.motion);
+  tell_doubts(options, *recorded.motion, inverse);
   const DataTable found = table_of(recorded, inverse);
   const std::vector<NamedPeak> peaks = peaks_of(found);
   files.write(found);

@@ -34,6 +34,7 @@ struct SheetOptions {
   std::vector<std::string> outputs;
   int columns = 0;
   int width = 0, height = 0;  // 0: 1920 x 1080
+  std::string title;          // above all; "": of one scene at several instants its own, else none
   PaperOptions paper;
   CommonOptions common;
   const Command* command = nullptr;
@@ -46,13 +47,15 @@ void leave_out_faces(Scene& scene, bool quiet) {
   scene.style.fonts = {};
 }
 
+constexpr double kLargestNames = 0.1;  // of panels, units of the picture's height: larger ones leave their panels no room
+
 // What a small picture shows: all that is drawn, without the words around it.
 void set_for_cell(Scene& scene, ThemeName theme, const ContactGrid& grid) {
   const double text_scale = text_scale_in(grid);
   scene.video.height = 1000;
   scene.video.width = int(std::lround(scene.video.height * grid.page_aspect()));
   scene.video.preset = Preset::overlay;
-  scene.video.names_panels = text_scale >= 1;  // words can be read there
+  scene.video.panel_names = grid.smallest_in_cell() <= kLargestNames ? grid.smallest_in_cell() : 0;
   scene.theme = theme;
   scene.text_scale = text_scale;
   if (scene.layout == PageLayout::automatic) scene.layout = PageLayout::scene;
@@ -69,9 +72,12 @@ std::vector<AskedInstant> instants_of(const SheetOptions& options) {
 
 constexpr double kSheetOfPaper = 1.41421356237309505;  // height over width of A4 upright
 
+constexpr double kWordsOfPaper = 1.35;  // times the smallest that can be read: 9.5 pt
+
 struct SheetSize {
   int width = 1920, height = 1080;  // px
   double text_scale = 1;
+  double least_text = size::kTick;
 };
 SheetSize size_of(const SheetOptions& options) {
   check_paper(options.paper, options.width > 0 || options.height > 0);
@@ -81,7 +87,7 @@ SheetSize size_of(const SheetOptions& options) {
   if (options.height > 0) size.height = options.height;
   if (!options.paper.is_given()) return size;
   const PaperPage page = paper_page(options.paper, std::round(kSheetOfPaper * options.paper.width_mm));
-  return {page.width, page.height, std::max(size.text_scale, text_scale_on(page, size.text_scale))};
+  return {page.width, page.height, text_scale_on(page, kWordsOfPaper * size.text_scale), page.least_text};
 }
 
 // Plots that a scene asks for would have no room in a cell.
@@ -116,6 +122,12 @@ std::string title_of_cell(const Moment& moment, const Scene& scene, const Page& 
   return page.scenes == 1 ? time : time + ": " + title;
 }
 
+// Of one scene at several instants: what its run tells of itself, `{fall}`, stands there, too.
+std::string title_of_run(const PreparedFilm& film, const std::string& file) {
+  const std::string title = film.panels.size() == 1 ? title_of(film.panels.front().scene, Runs(film)[0]) : title_of_page(film.scene);
+  return title.empty() ? std::filesystem::path(file).stem().string() : title;
+}
+
 // A cell an instant that is asked for. `told` gets what they show in numbers. A run that is over by then shows its end.
 std::vector<ContactCell> cells_of(const std::string& file, const SheetOptions& options, Page& page, Json& told) {
   PreparedFilm film = load_film(file, overrides_of(options.common), true, options.common.quiet);
@@ -123,11 +135,10 @@ std::vector<ContactCell> cells_of(const std::string& file, const SheetOptions& o
   leave_out_faces(film.scene, options.common.quiet);
   leave_out_plots(film.scene, options.common.quiet);
   for (PreparedScene& panel : film.panels) panel.scene.plot.clear();
-  if (page.is_of_one()) {
-    const std::string title = title_of_page(film.scene);
-    page.set_title(title.empty() ? std::filesystem::path(file).stem().string() : title);
-  }
+  if (page.is_of_one() && page.look.title.empty()) page.set_title(title_of_run(film, file));
   set_for_cell(film.scene, page.theme, page.grid);
+  if (film.panels.size() > 1 && film.scene.video.panel_names == 0 && !options.common.quiet)
+    std::fprintf(stderr, "note: %s: the names of its panels have no room in pictures so small: take fewer --columns, or a sheet of fewer pictures\n", film.scene.name.c_str());
   for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.grid);
   std::vector<AskedInstant> asked = page.asked;
   for (AskedInstant& one : asked)
@@ -201,7 +212,7 @@ void run_sheet(const SheetOptions& options) {
   const Fonts fonts;
   const SheetSize size = size_of(options);
   Page page{.theme = theme,
-            .look = {double(size.width) / size.height, options.columns, "", size.text_scale, &theme_named(to_string(theme)), &fonts},
+            .look = {double(size.width) / size.height, options.columns, options.title, size.text_scale, size.least_text, &theme_named(to_string(theme)), &fonts},
             .count = count,
             .asked = asked,
             .scenes = options.scenes.size()};
@@ -225,6 +236,7 @@ void add_sheet_command(CommandLine& app) {
                    "instants, a picture each: --at 0.2s,1.5s,2.5s or --at \"event touch\"; of a scene that is over by then its end (repeatable; "
                    "default: the last event of a scene, else its middle)");
   command->add_repeatable("-o,--output", options->outputs, "a .png, .svg or .pdf file (repeatable; default out/sheet.png)");
+  command->add_option("--title", options->title, "above all, maybe with formulas between dollar signs; default: of one scene at several instants its own");
   command->add_option("--columns", options->columns, "default: as many as make the pictures largest")
       .range(1, kMostCells);
   command->add_option("--width", options->width, "pixels (default 1920)").range(16, 16384);

@@ -21,6 +21,7 @@
 #include "core/output_file.hpp"
 #include "draw/charts/stability_map.hpp"
 #include "draw/page/house_style.hpp"
+#include "scene/run/title.hpp"
 #include "scene/run/stability_cells.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
@@ -126,16 +127,18 @@ const char* place_of(bool about_target) {
 }
 
 constexpr const char* kNoEquilibrium = "That is no equilibrium: elsewhere limits may differ";
+constexpr const char* kAlong = " and at instants of the run, the shortest counts";
 
 std::string place_of(const StabilityCells& cells) {
-  if (cells.about_rest == 0 || cells.about_rest == cells.linearised) return place_of(cells.about_rest > 0);
-  return "the rest that feedback leads to, or else the start";
+  const char* along = cells.along_runs > 0 ? kAlong : "";
+  if (cells.about_rest == 0 || cells.about_rest == cells.linearised) return place_of(cells.about_rest > 0) + std::string(along);
+  return "the rest that feedback leads to, or else the start" + std::string(along);
 }
 
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   StabilityMap map;
   map.title = "Where " + method_title(cells.method) + " fails";
-  map.subtitle = scene.title.empty() ? scene.name : scene.title;
+  map.subtitle = title_over_runs(scene);
   map.x = axis_of(cells.x);
   map.y = axis_of(cells.y);
   map.nx = int(cells.x.values.size());
@@ -177,8 +180,8 @@ void print_map_summary(const StabilityCells& cells) {
       "%s: %zu of %zu cells fail (no end, or an energy error above %s times the motion's); %d threads%s\n",
       cells.method.c_str(), failed, cells.cells.size(), format_shortest(kFailedEnergy).c_str(), cells.threads,
       cells.in_batches ? ", stepped in batches" : "");
-  if (cells.about_motion > 0)
-    std::printf("theory: of the motion linearised about %s. %s\n", place_of(cells).c_str(), kNoEquilibrium);
+  if (cells.along_runs > 0 || cells.about_motion > 0)
+    std::printf("theory: of the motion linearised about %s%s\n", place_of(cells).c_str(), cells.about_motion > 0 ? (std::string(". ") + kNoEquilibrium).c_str() : "");
 }
 
 Json json_of(const std::string& scene, const StabilityCells& cells) {
@@ -264,11 +267,16 @@ bool has_no_limit(const std::optional<double>& limit) {
   return limit && !std::isfinite(*limit);
 }
 
+Json rate_json(const std::complex<double>& rate) {
+  return {{"real", rate.real()}, {"imag", rate.imag()}};
+}
+
 Json linearisation_json(const Linearisation& start) {
-  Json json{{"trouble", or_null(start.trouble)}, {"about_target", start.about_target}, {"is_equilibrium", nullptr}, {"qd", nullptr}, {"qdd", nullptr}, {"rates", Json::array()}};
+  Json json{{"trouble", or_null(start.trouble)}, {"about_target", start.about_target}, {"is_equilibrium", nullptr}, {"qd", nullptr}, {"qdd", nullptr}, {"rates", Json::array()}, {"looked_at_along", start.along.size()}, {"fastest_along", nullptr}};
   if (!start.trouble.empty()) return json;
   json.update({{"is_equilibrium", start.is_equilibrium}, {"qd", start.rate}, {"qdd", start.acceleration}});
-  for (const std::complex<double>& rate : start.rates) json["rates"].push_back({{"real", rate.real()}, {"imag", rate.imag()}});
+  for (const std::complex<double>& rate : start.rates) json["rates"].push_back(rate_json(rate));
+  if (!start.along.empty()) json["fastest_along"] = rate_json(start.fastest());
   return json;
 }
 
@@ -284,15 +292,15 @@ std::string rate_text(const std::complex<double>& rate) {
 
 void print_linearisation(const Linearisation& start) {
   if (!start.trouble.empty()) return (void)std::printf("no limit can be told: %s\n", start.trouble.c_str());
-  std::printf("limits are those of the motion linearised about %s; its fastest part %s\n", place_of(start.about_target),
-              rate_text(start.rates.back()).c_str());
-  std::printf("none: stable at every step; 0: at no step; unknown: no limit was found\n");
-  if (!start.is_equilibrium)
+  std::printf("limits are those of the motion linearised about %s%s; its fastest part %s\n", place_of(start.about_target),
+              start.along.empty() ? "" : kAlong, rate_text(start.fastest()).c_str());
+  std::printf("none: stable at every step, though its equations may find no solution; 0: at no step; unknown: no limit was found\n");
+  if (!start.is_equilibrium && start.along.empty())
     std::printf("that is no equilibrium (qd %s, qdd %s at most): elsewhere limits may differ\n",
                 format_significant(start.rate, 3).c_str(), format_significant(start.acceleration, 3).c_str());
   const auto grows = std::find_if(start.rates.begin(), start.rates.end(),
                                   [](const std::complex<double>& rate) { return rate.real() > 0; });
-  if (grows != start.rates.end())
+  if (grows != start.rates.end() && start.along.empty())
     std::printf("the motion itself is unstable there: a part of it %s; limits are those of the rest\n",
                 rate_text(*grows).c_str());
 }
@@ -314,7 +322,7 @@ void compare_methods(const StabilityOptions& options) {
   PreparedScene prepared = load_motion(options.scene, overrides_of(options.common), options.panel, options.common.quiet);
   require_computed_run(prepared.scene, "stability");
   Simulation& simulation = prepared.simulation;
-  const Linearisation start = linearise(simulation);
+  const Linearisation start = linearise_along(simulation);
   std::vector<std::vector<std::string>> table{
       {"method", "coarse", "middle", "fine", "limit of the step, s"}};
   Json found{{"scene", options.scene}, {"methods", Json::array()}, {"left_out", Json::array()}};

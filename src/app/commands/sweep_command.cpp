@@ -375,14 +375,15 @@ void run_sweep(SweepOptions options) {
     throw_if_interrupted();
     report["outputs"].push_back({{"file", path}, {"done_before", outcome.skipped}, {"failed", outcome.failed}, {"largest", Json::array()}});
     for (const SweepPeak& one : outcome.largest)
-      report["outputs"].back()["largest"].push_back({{"column", one.column}, {"value", one.value}, {"run", one.run}, {"set", grid.settings(one.run)}});
+      report["outputs"].back()["largest"].push_back({{"column", one.column}, {"value", one.value}, {"run", one.run}, {"set", grid.settings(one.run)}, {"same_in_all", one.is_of_all()}});
     written.push_back(path);
     if (!options.common.json && !options.common.quiet)
       std::printf("%s: %d runs, %zu of them done before, %zu failed\n", path.c_str(), runs.behind - runs.first, outcome.skipped,
                   outcome.failed);
     if (!options.common.json && !options.common.quiet && written.size() == 1)
       for (const SweepPeak& one : outcome.largest)
-        std::printf("largest %s: %s, in run %zu: %s\n", one.column.c_str(), format_significant(one.value, 6).c_str(), one.run, joined(grid.settings(one.run), " ").c_str());
+        std::printf("largest %s: %s, %s\n", one.column.c_str(), format_significant(one.value, 6).c_str(),
+                    one.is_of_all() ? "the same in all runs" : ("in run " + std::to_string(one.run) + ": " + joined(grid.settings(one.run), " ")).c_str());
     if (outcome.failed > worst.failed) worst = outcome;
     if (outcome.beyond_limits > 0 && written.size() == 1 && !options.common.quiet)
       std::fprintf(stderr, "note: %s: %zu of %zu rows pass limits of joints: their column `trouble` names them\n", path.c_str(), outcome.beyond_limits,

@@ -1,5 +1,6 @@
 #include "app/commands/sweep_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -52,10 +53,12 @@ void SeenRows::look_at_peaks(const std::string& row, std::size_t run, std::size_
     comma = end;
     if (!value) continue;
     SweepPeak& largest = largest_[i];
+    largest.least = has_peak_[i] ? std::min(largest.least, std::fabs(*value)) : std::fabs(*value);
+    ++largest.count;
     const double more = std::fabs(*value) - std::fabs(largest.value);
     if (has_peak_[i] && !(more > 0 || (more == 0 && run < largest.run))) continue;
     has_peak_[i] = true;
-    largest = {peaks_[i], *value, run};
+    largest = {peaks_[i], *value, run, largest.least, largest.count};
   }
 }
 

@@ -1,6 +1,7 @@
 // What the rows of a sweep's table come to: how many failed or are doubtful, and where its peaks are largest.
 #pragma once
 
+#include <cmath>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -17,6 +18,11 @@ struct SweepPeak {
   std::string column;  // "tau1 [N m]", without its peak_
   double value = 0;
   std::size_t run = 0;
+  double least = 0;       // of all runs, in magnitude
+  std::size_t count = 0;  // of runs that have one
+
+  // Of several runs that differ by no more than rounding: none of them is the one.
+  bool is_of_all() const { return count > 1 && std::fabs(value) - least <= 1e-9 * std::fabs(value); }
 };
 
 struct SweepOutcome {

@@ -10,7 +10,9 @@
 
 #include "app/cli/streams.hpp"
 #include "app/film/clip_memory.hpp"
+#include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
+#include "app/gallery/gallery_pictures.hpp"
 #include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -112,6 +114,16 @@ std::string words_beside(const fs::path& film) {
   return text.substr(0, text.find('\n'));
 }
 
+// A smaller clip remembers the audit of the frames that were drawn: of its own tells the file beside it; else nothing.
+void count_own_frames(GalleryClip& clip) {
+  if (!clip.audit.is_object() || !clip.type.starts_with("image/")) return;
+  clip.audit.erase("frames");
+  const Json beside = audit_beside(clip.path);
+  if (!beside.is_object()) return;
+  for (const Json& file : beside.value(kAuditedFiles, Json::array()))
+    if (word_of(file, "file") == fs::path(clip.path).filename().string() && file.contains("frames")) clip.audit["frames"] = file["frames"];
+}
+
 // Title, words, scene and audit: of the film itself, else of the files beside it.
 void remember(GalleryClip& clip) {
   ClipMemory memory;
@@ -122,6 +134,7 @@ void remember(GalleryClip& clip) {
   }
   clip.scene = memory.scene;
   clip.audit = memory.audit.is_object() && !memory.audit.empty() ? memory.audit : audit_beside(clip.path);
+  count_own_frames(clip);
   // The audit's title says what the scene's leaves open: when it falls.
   if (clip.audit.is_object() && clip.audit.value("title", Json()).is_string())
     memory.title = clip.audit["title"];
@@ -211,22 +224,26 @@ FoundClips find_clips(const std::vector<std::string>& paths) {
   ProblemList problems;
   for (const std::string& path : paths) {
     std::error_code code;
-    if (fs::is_directory(path, code))
+    if (fs::is_directory(path, code)) {
       add_films_in(path, found);
+      std::ranges::move(pictures_in(path, found.left_out), std::back_inserter(found.pictures));
+    }
     else if (!fs::is_regular_file(path, code))
       problems.add("there is no such file or folder", {path});
+    else if (!picture_type_of(path).empty())
+      found.pictures.push_back(path);
     else if (browser_type_of(path).empty())
-      problems.add("is no film for browsers: a gallery takes " + played_endings("and"), {path});
+      problems.add("is no film or picture for browsers: a gallery takes " + played_endings("and") + ", and pictures as " + shown_endings("and"), {path});
     else
       found.paths.push_back(path);
   }
   problems.throw_if_any();
   // Each once, where it is named first.
   std::set<std::string> seen;
-  std::erase_if(found.paths, [&](const std::string& path) { return !seen.insert(path).second; });
+  for (auto* list : {&found.paths, &found.pictures}) std::erase_if(*list, [&](const std::string& path) { return !seen.insert(path).second; });
   std::sort(found.left_out.begin(), found.left_out.end());
-  if (!found.paths.empty()) return found;
-  throw Error(ExitCode::bad_input, "there is no film (" + played_endings("or") + ") here: render some first", {joined(paths)});
+  if (!found.paths.empty() || !found.pictures.empty()) return found;
+  throw Error(ExitCode::bad_input, "there is no film (" + played_endings("or") + ") and no picture of ours here: render some first", {joined(paths)});
 }
 
 std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths) {

@@ -31,10 +31,11 @@ struct GalleryClip {
 std::string played_endings(const std::string& last_word);
 
 // Films named, and those in folders named (of NAME.mp4, .webm, .apng and .gif that show the same the first), in the order in which they are named, those of a folder by their names.
-// Throws Error (exit 3) where a path is no film and no folder, and where there is no film at all.
+// Throws Error (exit 3) where a path is no film, no picture and no folder, and where there is none of them at all.
 struct FoundClips {
   std::vector<std::string> paths;
-  std::vector<std::string> left_out;  // clips in those folders of kinds that browsers do not play
+  std::vector<std::string> pictures;  // see gallery_pictures; named, or in those folders
+  std::vector<std::string> left_out;  // clips and pictures in those folders of kinds that browsers do not play or show
 };
 FoundClips find_clips(const std::vector<std::string>& paths);
 

@@ -42,18 +42,19 @@ void run_gallery(const GalleryOptions& options) {
     throw Error(ExitCode::usage, "-o " + options.output + ": a gallery is written as .html");
   const FoundClips found = find_clips(options.paths);
   const std::vector<GalleryClip> clips = read_clips(found.paths);
+  const std::vector<GalleryPicture> pictures = read_pictures(found.pictures);
   OutputFile output(options.output, options.common.force);
   std::ofstream stream(output.temporary_path(), std::ios::binary);
-  write_gallery(stream, clips, options.title);
+  write_gallery(stream, clips, pictures, options.title);
   stream.close();
   if (!stream) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {output.path()});
   throw_if_interrupted();
   output.commit();
   if (!options.common.quiet) tell_of_long_films(clips);
   if (!options.common.quiet && !found.left_out.empty())
-    std::fprintf(stderr, "note: left out: %s; browsers play %s: give such a -o beside, as in -o a.mov -o a.mp4\n",
-                 joined(found.left_out).c_str(), played_endings("and").c_str());
-  tell_files(options.common, {options.output}, [&] { return Json{{"clips", clips.size()}}; });
+    std::fprintf(stderr, "note: left out: %s; browsers play %s and show %s: give such a -o beside, as in -o a.mov -o a.mp4\n",
+                 joined(found.left_out).c_str(), played_endings("and").c_str(), shown_endings("and").c_str());
+  tell_files(options.common, {options.output}, [&] { return Json{{"clips", clips.size()}, {"pictures", pictures.size()}}; });
 }
 
 }  // namespace
@@ -61,8 +62,8 @@ void run_gallery(const GalleryOptions& options) {
 void add_gallery_command(CommandLine& app) {
   auto options = std::make_shared<GalleryOptions>();
   Command* command = app.add_subcommand(
-      "gallery", "one page for browsers with films, their audits, charts and scenes, without a server");
-  command->add_option("paths", options->paths, "folders with films, or films: " + played_endings("or") + " (default out)");
+      "gallery", "one page for browsers with films, their audits, charts and scenes, and pictures below them, without a server");
+  command->add_option("paths", options->paths, "folders with films and pictures, or films: " + played_endings("or") + ", or pictures: " + shown_endings("or") + " (default out)");
   command->add_option("-o,--output", options->output, "a .html file (default out/index.html)");
   command->add_option("--title", options->title, "of the page");
   add_result_options(*command, options->common);

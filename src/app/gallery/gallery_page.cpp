@@ -44,6 +44,7 @@ Filler charts_of(const std::vector<GalleryChart>& charts) {
       for (const GalleryChart& chart : charts)
         fill_page(out, embedded_page("chart.html"),
                   {{"title", plain(chart.title)},
+                   {"type", plain("image/png")},
                    {"file", plain(std::filesystem::path(chart.path).filename().string())},
                    {"picture", file_in_base64(chart.path)}});
     };
@@ -87,13 +88,37 @@ void write_card(std::ostream& stream, const GalleryClip& clip, const std::string
              {"scene", scene_of(clip, id)}});
 }
 
-}  // namespace
+// The pictures below the films, read when it is their turn.
+Filler section_of(const std::vector<GalleryPicture>& pictures) {
+  if (pictures.empty()) return markup("");
+  return [&pictures](std::ostream& stream) {
+    const Filler figures = [&pictures](std::ostream& out) {
+      for (const GalleryPicture& one : pictures) {
+        throw_if_interrupted();
+        fill_page(out, embedded_page("chart.html"),
+                  {{"title", plain(one.title)},
+                   {"type", plain(one.type)},
+                   {"file", plain(std::filesystem::path(one.path).filename().string())},
+                   {"picture", file_in_base64(one.path)}});
+      }
+    };
+    fill_page(stream, embedded_page("pictures.html"), {{"figures", figures}});
+  };
+}
 
-void write_gallery(std::ostream& stream, const std::vector<GalleryClip>& clips, const std::string& title) {
+// "One film, 3.0 s long, and 2 pictures."
+std::string summary_of(const std::vector<GalleryClip>& clips, const std::vector<GalleryPicture>& pictures) {
   double seconds = 0;
   for (const GalleryClip& clip : clips) seconds += clip.start.seconds;
-  const std::string summary = (clips.size() == 1 ? "One film" : std::to_string(clips.size()) + " films") +
-                              ", " + format_fixed(seconds, 1) + " s together.";
+  std::string text;
+  if (!clips.empty()) text = (clips.size() == 1 ? "One film, " : std::to_string(clips.size()) + " films, ") + format_fixed(seconds, 1) + (clips.size() == 1 ? " s long" : " s together");
+  if (pictures.empty()) return text + ".";
+  return text + (text.empty() ? "" : ", and ") + (pictures.size() == 1 ? "one picture." : std::to_string(pictures.size()) + " pictures.");
+}
+
+}  // namespace
+
+void write_gallery(std::ostream& stream, const std::vector<GalleryClip>& clips, const std::vector<GalleryPicture>& pictures, const std::string& title) {
   const Filler cards = [&clips](std::ostream& out) {
     for (std::size_t i = 0; i < clips.size(); ++i) {
       throw_if_interrupted();
@@ -103,10 +128,11 @@ void write_gallery(std::ostream& stream, const std::vector<GalleryClip>& clips, 
   fill_page(stream, embedded_page("gallery.html"),
             {{"title", plain(title)},
              {"generator", plain(std::string("chainreel ") + program_version())},
-             {"summary", plain(summary)},
+             {"summary", plain(summary_of(clips, pictures))},
              {"style", markup(std::string(embedded_page("gallery.css")))},
              {"script", markup(std::string(embedded_page("gallery.js")))},
-             {"cards", cards}});
+             {"cards", cards},
+             {"pictures", section_of(pictures)}});
 }
 
 namespace {

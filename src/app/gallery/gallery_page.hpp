@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "app/gallery/gallery_clips.hpp"
+#include "app/gallery/gallery_pictures.hpp"
 #include "core/json.hpp"
 
 namespace chainreel {
 
 // Films are read while they are written, one piece after the other. The same films give the same page. Throws
 // Error (exit 3) where one cannot be read any more.
-void write_gallery(std::ostream& stream, const std::vector<GalleryClip>& clips, const std::string& title);
+void write_gallery(std::ostream& stream, const std::vector<GalleryClip>& clips, const std::vector<GalleryPicture>& pictures, const std::string& title);
 
 // The numbers of an audit that people look for first.
 

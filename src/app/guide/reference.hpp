@@ -34,6 +34,8 @@ std::string methods_page();
 std::string expressions_page();
 std::string outputs_page();
 std::string exit_codes_page();
+// --- reference_symbols.cpp
+std::string symbols_page();
 // --- reference_json.cpp
 std::string json_page();
 

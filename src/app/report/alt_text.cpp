@@ -8,6 +8,7 @@
 #include "app/report/motion_table.hpp"
 #include "app/report/report.hpp"
 #include "core/format.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
 #include "draw/layers/speed_box.hpp"
 #include "picture/formula_words.hpp"
 #include "scene/run/title.hpp"
@@ -42,7 +43,11 @@ std::string control_words(const Control& control, const std::string& end_effecto
   if (control.computed_torque) parts.emplace_back("computed torque");
   if (control.task) parts.push_back("a spring and a damper at " + (control.task->frame.empty() ? end_effector : control.task->frame));
   if (control.gravity_compensation) parts.emplace_back("gravity compensation");
-  if (!control.plus.empty()) parts.emplace_back("torques of its own");
+  if (!control.plus.empty()) {
+    std::vector<std::string> texts;
+    for (const Entry& one : control.plus) texts.push_back(one.text);
+    parts.push_back("torques (" + joined(texts) + ")");
+  }
   return joined(parts, " and ");
 }
 
@@ -71,33 +76,58 @@ std::string push_words(const PreparedScene& panel) {
   return text;
 }
 
+// ", pressing with 5 N on its line"
+std::string press_words(const PreparedScene& panel) {
+  std::string text;
+  const ConstraintPlan& plan = panel.simulation.constraints;
+  for (const ContactForce& one : plan.contact_forces)
+    text += (text.empty() ? ", pressing with " : " and ") + format_significant(one.force.norm(), 4) + " N on " + name_of(plan.list[one.constraint]);
+  return text;
+}
+
 std::string payload_words(const Scene& scene) {
   if (!(scene.payload.mass > 0)) return "";
   const std::string& link = scene.payload.link.empty() ? scene.end_effector : scene.payload.link;
   return ", with a load of " + format_significant(scene.payload.mass, 4) + " kg at " + link;
 }
 
-// ", tied by a line": each constraint by the name that it goes by elsewhere.
-std::string tie_words(const PreparedScene& panel) {
+// ", tied by a line, which leaves 1": each constraint by the name that it goes by elsewhere.
+std::string tie_words(const PreparedScene& panel, const Trajectory& run) {
+  const ConstraintPlan& plan = panel.simulation.constraints;
   std::vector<std::string> names;
-  for (const Constraint& one : panel.simulation.constraints.list) names.push_back(name_of(one));
-  return names.empty() ? "" : ", tied by " + joined(names);
+  for (const Constraint& one : plan.list) names.push_back(name_of(one));
+  if (names.empty()) return "";
+  // Rows that repeat each other at one pose, as where a linkage is stretched, do not at others.
+  const Chain& chain = panel.simulation.chain;
+  const ConstraintSet set(chain, plan.list);
+  Workspace ws(chain);
+  int freed = chain.nv;
+  for (const int k : {0, run.size() / 2, run.size() - 1})
+    if (k >= 0 && k < run.size()) freed = std::min(freed, int(free_directions(chain, ws, set, run.q_at(k)).cols()));
+  return ", tied by " + joined(names) + ", which leaves " + (freed == 0 ? "none" : std::to_string(freed));
 }
 
-// `seconds`: how long the motion went on.
-std::string motion_words(const PreparedScene& panel, double seconds) {
+std::string resistance_words(const Chain& chain) {
+  const auto any = [&](double Joint::*part) { return std::any_of(chain.bodies.begin(), chain.bodies.end(), [part](const Body& body) { return body.joint.*part > 0; }); };
+  if (!chain.has_dissipation) return "";
+  const bool is_damped = any(&Joint::damping), rubs = any(&Joint::friction);
+  return std::string(", with ") + (is_damped && rubs ? "damping and friction" : rubs ? "friction" : "damping") + " in its joints";
+}
+
+std::string motion_words(const PreparedScene& panel, const Trajectory& run) {
+  const double seconds = run.end_time;
   const Scene& scene = panel.scene;
   const Chain& chain = panel.simulation.chain;
   const bool starts_at_rest =
       std::all_of(scene.start.qd.begin(), scene.start.qd.end(), [](double qd) { return qd == 0; });
   return "the chain" + (chain.name == "chain" ? "" : " " + chain.name) + " with " + std::to_string(chain.nv) +
-         (chain.nv == 1 ? " freedom" : " freedoms") + tie_words(panel) + " moves for " + format_significant(seconds, 4) + " s" +
+         (chain.nv == 1 ? " freedom" : " freedoms") + tie_words(panel, run) + " moves for " + format_significant(seconds, 4) + " s" +
          " under " +
          (chain.gravity.norm() > 0
               ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
               : "no gravity and ") +
-         torque_words(scene) + push_words(panel) + payload_words(scene) +
-         (chain.has_dissipation ? ", with friction in its joints" : "") + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
+         torque_words(scene) + press_words(panel) + push_words(panel) + payload_words(scene) +
+         resistance_words(chain) + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
          " from q = " + vector_text(scene.start.q);
 }
 
@@ -212,7 +242,7 @@ std::string sentence_of(const FilmReport& report) {
   const PreparedFilm& film = report.film();
   std::string text = in_plain_words(film.panels.size() == 1 ? title_of(report.panels.front()) : title_of_page(film.scene));
   if (text.empty()) text = film.scene.name;
-  const std::string motion = motion_words(film.panels.front(), report.runs[0].end_time);
+  const std::string motion = motion_words(film.panels.front(), report.runs[0]);
   if (film.panels.size() == 1) return text + ": " + motion + ".";
   const bool ghost = is_ghost_layout(film.scene);
   text += ": " + std::to_string(film.panels.size()) +
@@ -227,7 +257,8 @@ std::string alt_text(const FilmReport& report, const ClipLength& clip) {
   const std::vector<PreparedScene>& panels = report.film().panels;
   std::string text = sentence_of(report) + "\n\n";
   for (std::size_t i = 1; i < panels.size(); ++i)
-    text += in_plain_words(title_of(report.panels[i])) + ": " + motion_words(panels[i], report.runs[i].end_time) + ".\n";
+    text += in_plain_words(title_of(report.panels[i])) + ": " + motion_words(panels[i], report.runs[i]) + ".\n";
+  if (panels.size() > 1) text += "\n";
   text += "Scene: " + scene.name + "\nDuration: " + format_significant(clip.seconds, 6) + " s, " + std::to_string(clip.frames) + " frames";
   const double first = scene.hold.first, last = scene.hold.last;
   if (first > 0) text += "; the first is held for " + format_quantity(first, "s");
@@ -240,8 +271,12 @@ std::string alt_text(const FilmReport& report, const ClipLength& clip) {
   sort_by_time(moments);
   text += moments.empty() ? "What happens: nothing is marked; the motion goes on to its end.\n"
                           : "What happens:\n";
-  for (const Moment& moment : moments)
-    text += "  t = " + format_fixed(moment.t, 3) + " s: " + moment.text + "\n";
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    // An event and the words that point at it are one.
+    const bool goes_on = i > 0 && moments[i].t == moments[i - 1].t;
+    if (goes_on) text.back() = ';';
+    text += (goes_on ? " " : "  t = " + format_fixed(moments[i].t, 3) + " s: ") + moments[i].text + "\n";
+  }
   return text;
 }
 
@@ -258,8 +293,9 @@ std::string captions(const FilmReport& report) {
   std::string text;
   int number = 0;
   for (std::size_t i = 0, next = 0; i < moments.size(); i = next) {
-    const double begin = moments[i].t;
-    for (; next < moments.size() && moments[next].t < begin + kSameInstant; ++next) moments[next].t = begin;
+    while (next < moments.size() && moments[next].t < moments[i].t + kSameInstant) ++next;
+    const double first = moments[i].t, begin = moments[next - 1].t;  // of all of them: the first a little late, none before its time
+    for (std::size_t k = i; k < next; ++k) moments[k].t = first;
     // What came just before stands on until it can have been read, and so does what is held, nothing before its time.
     std::string words;
     double end = begin;

@@ -128,15 +128,33 @@ std::string number_notation(double value, double largest) {
   return mantissa + "e" + format_fixed(exponent, 0);
 }
 
+namespace {
+
+// Three digits also where the last ones are zeros, as numbers of one table have them.
+std::string entry_notation(double value, double largest) {
+  const double size = std::abs(value);
+  if (size <= kSameWidth * largest || !(size >= 1e-3 && size < 999.5)) return number_notation(value, largest);
+  const std::string usual = format_significant(value, 3);
+  const int decimals = 2 - int(std::floor(std::log10(std::abs(parse_number(usual).value_or(value)))));
+  return format_fixed(value, std::max(decimals, 0));
+}
+
+}  // namespace
+
 std::vector<std::vector<std::string>> matrix_notations(const Eigen::MatrixXd& Lambda) {
   const double largest = Lambda.size() > 0 ? Lambda.cwiseAbs().maxCoeff() : 0;
-  std::vector<std::vector<std::string>> rows(std::size_t(Lambda.rows()));
-  for (Eigen::Index i = 0; i < Lambda.rows(); ++i) {
-    for (Eigen::Index j = 0; j < Lambda.cols(); ++j) {
-      rows[std::size_t(i)].push_back(number_notation(Lambda(i, j), largest));
-    }
-  }
-  return rows;
+  const auto written = [&](std::string (*notation)(double value, double largest)) {
+    std::vector<std::vector<std::string>> rows(std::size_t(Lambda.rows()));
+    for (Eigen::Index i = 0; i < Lambda.rows(); ++i)
+      for (Eigen::Index j = 0; j < Lambda.cols(); ++j) rows[std::size_t(i)].push_back(notation(Lambda(i, j), largest));
+    return rows;
+  };
+  // Whole numbers among themselves have no need of zeros.
+  const std::vector<std::vector<std::string>> plain = written(&number_notation);
+  const bool are_whole = std::ranges::all_of(plain, [](const auto& row) {
+    return std::ranges::none_of(row, [](const std::string& entry) { return entry.find('.') != std::string::npos; });
+  });
+  return are_whole ? plain : written(&entry_notation);
 }
 
 std::string singular_text(const EffectiveMass& effective) {

@@ -24,6 +24,7 @@ const std::string kEllipsis = "\u2026";
 
 constexpr double kTitleRoom = 1.7;   // of its em: of the page's title with the air below it
 constexpr double kTitleLinePitch = 1.25;  // of its em
+constexpr double kTitleOfPaper = 0.8;  // of what it is on a slide, beside the same words
 constexpr double kTitleAspect = 1.2;  // narrower pages have smaller titles
 constexpr int kMostTitleLines = 2;
 constexpr double kSmallerTitle = 0.95;
@@ -43,7 +44,7 @@ PageTitle page_title(const ContactSheetLook& look) {
     return lay_out_words(*look.fonts, words, {Face::label_bold, title.size, look.theme->ink, Align::left});
   };
   if (look.title.empty()) return title;
-  for (title.size = scaled(size::kTitle, look.text_scale) * std::min(1.0, look.aspect / kTitleAspect);; title.size *= kSmallerTitle) {
+  for (title.size = look.words_of(size::kTitle) * (look.is_paper() ? kTitleOfPaper : std::min(1.0, look.aspect / kTitleAspect));; title.size *= kSmallerTitle) {
     title.lines.clear();
     std::string words;
     bool is_narrow = true;
@@ -68,12 +69,12 @@ struct Cut {
   int title_lines = 2;
 };
 
-Cut cut_page(int columns, int lines, const Rect& inside, double text_scale) {
+Cut cut_page(int columns, int lines, const Rect& inside, const ContactSheetLook& look) {
   Cut cut;
   cut.width = (inside.width() - (columns - 1) * kBetweenColumns) / columns;
   const bool wide = cut.width >= kWideCell;
   cut.title_lines = wide ? 1 : 2;
-  cut.text_size = scaled(wide ? size::kAxis : kSmallestText, text_scale);
+  cut.text_size = look.words_of(wide ? size::kAxis : kSmallestText);
   cut.caption = (kTitleAir + cut.title_lines * kTitlePitch) * cut.text_size;
   const double room = (inside.height() - (lines - 1) * kBetweenColumns) / lines - cut.caption;
   cut.height = std::min(cut.width / kCellAspect, room);
@@ -87,11 +88,11 @@ int lines_of(int count, int columns) {
 }
 
 // As few columns as any other choice that makes the pictures as large.
-int best_columns(int count, const Rect& inside, double text_scale) {
+int best_columns(int count, const Rect& inside, const ContactSheetLook& look) {
   int best = 1;
   double largest = 0;
   for (int columns = 1; columns <= count; ++columns) {
-    const double width = cut_page(columns, lines_of(count, columns), inside, text_scale).width;
+    const double width = cut_page(columns, lines_of(count, columns), inside, look).width;
     if (width <= largest * (1 + 1e-9)) continue;
     largest = width;
     best = columns;
@@ -148,16 +149,16 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
   const Rect inside{size::kMargin, size::kMargin, look.aspect - size::kMargin, 1 - size::kMargin - page_title(look).room()};
   ContactGrid grid;
   grid.columns =
-      look.columns > 0 ? std::min(look.columns, count) : best_columns(count, inside, look.text_scale);
+      look.columns > 0 ? std::min(look.columns, count) : best_columns(count, inside, look);
   grid.lines = lines_of(count, grid.columns);
-  const Cut cut = cut_page(grid.columns, grid.lines, inside, look.text_scale);
+  const Cut cut = cut_page(grid.columns, grid.lines, inside, look);
   if (cut.height < kSmallestPicture)
     throw Error(ExitCode::usage, std::to_string(count) + " pictures in " + std::to_string(grid.columns) +
                                      " columns are too small on this page: choose other --columns, a larger "
                                      "--height or a smaller --text-scale");
   grid.text_size = cut.text_size;
   grid.title_lines = cut.title_lines;
-  grid.smallest_text = scaled(kSmallestText, look.text_scale);
+  grid.smallest_text = look.words_of(kSmallestText);
 
   // The whole lies in the middle of the page; what is free between columns grows where the height decides, no
   // further than three gaps.
@@ -176,8 +177,7 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
 }
 
 double text_scale_in(const ContactGrid& grid) {
-  const double page_height = grid.pictures.front().height() / (1 - 2 * size::kMargin);
-  const double scale = grid.smallest_text / (size::kAxis * page_height);
+  const double scale = grid.smallest_in_cell() / size::kAxis;
   return scale <= kLargestWords ? std::max(scale, 1.0) : kNoWords;
 }
 

@@ -1,6 +1,7 @@
 // Many pictures on one page, a title below each.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,8 +21,12 @@ struct ContactSheetLook {
   int columns = 0;  // 0: as many as make the pictures largest
   std::string title{};  // above all; "": none. It may have formulas between dollar signs, as those of cells
   double text_scale = 1;
+  double least_text = size::kTick;  // units of H: no word is lower; of a page of paper less
   const Theme* theme = &light_theme();
   const Fonts* fonts = nullptr;
+
+  double words_of(double size) const { return text_scale < 1 ? std::max(size * text_scale, least_text) : scaled(size, text_scale); }
+  bool is_paper() const { return least_text < size::kTick; }
 };
 
 // Where the cells lie: pictures row by row from the top, below each the room for its title.
@@ -31,6 +36,9 @@ struct ContactGrid {
   double smallest_text = 0;  // of all words
   int title_lines = 2;
   std::vector<Rect> pictures, titles;
+
+  // The smallest words in units of the height of the page that a picture is drawn on.
+  double smallest_in_cell() const { return smallest_text * (1 - 2 * size::kMargin) / pictures.front().height(); }
 
   // Of the page that a picture is drawn on, which is larger: its outer margin is cut off.
   double page_aspect() const {

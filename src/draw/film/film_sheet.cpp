@@ -15,7 +15,7 @@ constexpr double kTitleRow = 1.55;  // of the em: a panel's title or note with t
 SheetText words_of(const Stage& stage, const Layers& layers) {
   SheetText text;
   if (is_transparent(stage.page)) {  // nothing above or below the scene
-    text.with_panel_titles = stage.page.video.names_panels && stage.has_cells();
+    text.with_panel_titles = stage.page.video.panel_names > 0 && stage.has_cells();
     return text;
   }
   text.title_place = stage.page.place_of("title");
@@ -58,16 +58,20 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
   return strip;
 }
 
+constexpr double kNamesPad = 0.35;     // likewise, at both sides: a sheet's cells have no margin
+constexpr double kSmallerNames = 0.75;  // of Video::panel_names: smaller they are cut
+
 // The size at which every panel's title fits, if it is not too small to read.
 double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
-  const double full = scaled(size::kSymbol, stage.page.text_scale);
+  const double names = stage.page.video.panel_names;
+  const double full = names > 0 ? names : scaled(size::kSymbol, stage.page.text_scale);
   double common = full;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const TextLine line =
         lay_out_words(stage.fonts, stage.motions[i].title(), {Face::label_bold, full, stage.theme.ink});
-    if (line.advance > 0) common = std::min(common, full * cells[i].title.width() / line.advance);
+    if (line.advance > 0) common = std::min(common, full * (cells[i].title.width() - 2 * kNamesPad * names) / line.advance);
   }
-  return std::max(common, std::min(full, scaled(kSmallestText, stage.page.text_scale)));
+  return std::max(common, names > 0 ? kSmallerNames * names : std::min(full, scaled(kSmallestText, stage.page.text_scale)));
 }
 
 // Whoever wrote a title is told that it is too long; one that says what a panel differs in was made up, at first or when the
@@ -97,7 +101,7 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& stor
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
   if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story, room);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
-  if (has_panel_titles) rows.title = kTitleRow * scaled(size::kSymbol, page.text_scale);
+  if (has_panel_titles) rows.title = kTitleRow * (page.video.panel_names > 0 ? page.video.panel_names : scaled(size::kSymbol, page.text_scale));
   if (text.with_panel_titles && stage.is_ghost()) {
     key.emplace(stage, sheet.scene.width());
     rows.title = key->height();
@@ -159,16 +163,17 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
   std::vector<PlacedText> titles;
   if (!has_panel_titles) return titles;
   const double text_size = title_size(stage, cells);
+  const double pad = kNamesPad * stage.page.video.panel_names;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Rect& row = cells[i].title;
+    const Rect row{cells[i].title.x0 + pad, cells[i].title.y0, cells[i].title.x1 - pad, cells[i].title.y1};
     const auto& variant = stage.motions[i].variant();
     const Color color = variant ? variant->color : stage.theme.ink;
     const TextStyle style{Face::label_bold, text_size, color};
     const std::string title = stage.motions[i].title();
     TextLine line = lay_out_words(stage.fonts, title, style);
-    if (line.advance > row.width() + kRoundOff && (stage.page.video.names_panels || is_made_up(stage.motions[i])))
+    if (line.advance > row.width() + kRoundOff && (stage.page.video.panel_names > 0 || is_made_up(stage.motions[i])))
       line = abbreviated(stage.fonts, title, style, row.width());
-    if (line.runs.empty() && stage.page.video.names_panels) continue;  // a cell of a sheet too small for names
+    if (line.runs.empty() && stage.page.video.panel_names > 0) continue;  // a cell of a sheet too small for names
     if (line.advance > row.width() + kRoundOff || (line.runs.empty() && !title.empty()))
       throw Error(ExitCode::bad_input,
                   "the title of panel " + std::to_string(i + 1) +

@@ -13,8 +13,9 @@ constexpr double kPiece =
     0.006;  // H: a piece this long of a turn of radius 0.03 H misses it by a sixth of a pixel
 constexpr int kMostPieces = 24;  // between two frames
 
-// 1 at the head, 0 at the end of the trail.
+// 1 at the head, 0 at the end of the trail; one without end keeps its whole way as it is.
 double freshness(double age, double length) {
+  if (std::isinf(length)) return 1;
   return std::clamp(1 - age / length, 0.0, 1.0);
 }
 

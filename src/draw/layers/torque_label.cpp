@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <functional>
 
 #include "core/format.hpp"
@@ -266,6 +267,48 @@ std::vector<std::string> torque_notations(const Chain& chain, const std::vector<
 
 namespace {
 
+// "contact force 5 N": what `contact_force` adds to the torques, that constraints bear it.
+std::string contact_notation(const Scene& scene) {
+  if (scene.contact_force.empty()) return "";
+  std::vector<std::string> sizes;
+  for (const ContactEntry& one : scene.contact_force) {
+    double square = 0;
+    for (const double part : one.force) square += part * part;
+    sizes.push_back(format_significant(std::sqrt(square), 4));
+  }
+  return std::string("\"contact force") + (sizes.size() > 1 ? "s " : " ") + joined(sizes) + " N\"";
+}
+
+// ", cut at 2 N m": what `limit: clamp` leaves of the torques.
+std::string cut_notation(const Scene& scene, const Chain& chain) {
+  if (scene.limit != LimitPolicy::clamp || scene.motion) return "";
+  std::vector<double> efforts;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) efforts.push_back(chain.bodies[b].joint.limit.effort);
+  if (std::none_of(efforts.begin(), efforts.end(), [](double effort) { return std::isfinite(effort); })) return "";
+  const bool same = std::adjacent_find(efforts.begin(), efforts.end(), std::not_equal_to<>()) == efforts.end();
+  const std::string unit = unit_of(chain);
+  return same && !unit.empty() ? "\", cut at \"" + format_significant(efforts[0], 4) + unit : "\", cut at the joints' efforts\"";
+}
+
+// The forms of the sum, where the contact force acts besides.
+std::vector<std::string> with_contact(std::vector<std::string> forms, const std::string& contact) {
+  if (contact.empty()) return forms;
+  if (forms == std::vector<std::string>{"tau = 0"}) return {"tau = " + contact};
+  for (std::string& form : forms)
+    if (form != "tau = tau(t, q, qd)") form += " + " + contact;
+  return forms;
+}
+
+}  // namespace
+
+std::vector<std::string> torque_notations(const Chain& chain, const Scene& scene) {
+  std::vector<std::string> forms = with_contact(torque_notations(chain, scene.torque, scene.control), contact_notation(scene));
+  for (std::string& form : forms) form += cut_notation(scene, chain);
+  return forms;
+}
+
+namespace {
+
 // What the torques of a recorded motion are.
 std::vector<std::string> notations_of_replay() {
   return {"tau = M(q) qdd + h(q, qd) of the recorded motion", "tau = M(q) qdd + h(q, qd)"};
@@ -281,7 +324,7 @@ class TorqueLabel : public Layer {
   static std::vector<std::string> common_torque(const Stage& stage) {
     const auto notations = [](const StagedRun& motion) -> std::vector<std::string> {
       if (motion.scene().motion) return notations_of_replay();
-      std::vector<std::string> forms = torque_notations(motion.chain(), motion.scene().torque, motion.scene().control);
+      std::vector<std::string> forms = torque_notations(motion.chain(), motion.scene());
       // Where nothing drives them, too, joints resist: energy that falls beside "tau = 0" has its cause here.
       const std::string resistance = resistance_notation(motion.chain());
       if (resistance.empty()) return forms;

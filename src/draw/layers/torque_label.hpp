@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/chain.hpp"
+#include "scene/scene.hpp"
 #include "sim/drive/control.hpp"
 #include "sim/drive/torque.hpp"
 
@@ -18,6 +19,10 @@ namespace chainreel {
 // `control` drives the whole chain instead.
 std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque,
                                           const std::optional<Control>& control = {});
+
+// The same of a scene, with what its contact forces add and what `limit: clamp` leaves of it: "tau = contact force 5 N",
+// "tau = (10, 5) N m, cut at 2 N m".
+std::vector<std::string> torque_notations(const Chain& chain, const Scene& scene);
 
 // What resists in the joints, behind any of these: "damping 0.1 N m s", a number each where up to four joints differ. Empty where
 // nothing does.

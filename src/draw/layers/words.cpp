@@ -22,18 +22,21 @@ class TitleLayer : public Layer {
 class EquationLayer : public Layer {
  public:
   explicit EquationLayer(const Stage& stage) {
-    for (const StagedRun& motion : stage.motions) constrained_ |= motion.is_constrained();
+    for (const StagedRun& motion : stage.motions) {
+      constrained_ |= motion.is_constrained();
+      pushed_ |= !motion.scene().push.empty();
+    }
     // tau and lambda take the colours of their vectors where those are shown.
     if (stage.shows("torque")) colors_.push_back({"tau", stage.theme.torque});
     if (stage.shows("constraint_force")) colors_.push_back({"lambda", stage.theme.constraint});
   }
   void write(SheetText& text) const override {
-    text.equation = constrained_ ? "M(q) qdd + h(q, qd) + J_c^T lambda = tau" : "M(q) qdd + h(q, qd) = tau";
+    text.equation = std::string("M(q) qdd + h(q, qd)") + (constrained_ ? " + J_c^T lambda" : "") + " = tau" + (pushed_ ? " + J^T F" : "");
     text.symbols = colors_;
   }
 
  private:
-  bool constrained_ = false;
+  bool constrained_ = false, pushed_ = false;
   std::vector<SymbolColor> colors_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/dense.hpp"
 #include "dynamics/recursions.hpp"
 #include "dynamics/scratch.hpp"
 
@@ -247,6 +248,15 @@ int reversed_row(Workspace& ws, const ConstraintSet& set) {
     }
     return -1;
   });
+}
+
+Eigen::MatrixXd free_directions(const Chain& chain, Workspace& ws, const ConstraintSet& set, ConstVec q) {
+  constexpr double kSameRow = 1e-9;
+  ConstrainedWorkspace cws(chain, set);
+  const std::vector<double> rest(std::size_t(chain.nv));
+  compute_constraints(chain, ws, set, cws, q, rest);
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return null_space(Eigen::Map<const Rows>(cws.Jc.data(), set.rows(), chain.nv), kSameRow);
 }
 
 }  // namespace chainreel

@@ -19,6 +19,10 @@
 
 namespace chainreel {
 
+// Directions that the constraints leave free at a pose: columns of length 1 at right angles, nv rows. Rows that are multiples of
+// others, to 1e-9, take none away.
+Eigen::MatrixXd free_directions(const Chain& chain, Workspace& ws, const ConstraintSet& set, ConstVec q);
+
 // Writes cws.phi, cws.Jc, cws.Jcd_qd.
 void compute_constraints(const Chain& chain, Workspace& ws, const ConstraintSet& set,
                          ConstrainedWorkspace& cws, ConstVec q, ConstVec qd);

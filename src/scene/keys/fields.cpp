@@ -269,8 +269,15 @@ bool Fields::read_some(const std::string& key, std::optional<Eigen::Vector3d>& v
 bool Fields::read(const std::string& key, Eigen::Vector3d& value) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) return false;
+  if (node.IsMap() && node.size() > 0) {
+    std::optional<Eigen::Vector3d> some;
+    if (!read_some(key, some)) return false;
+    for (int i = 0; i < 3; ++i)
+      if (!std::isnan((*some)[i])) value[i] = (*some)[i];
+    return true;
+  }
   if (!node.IsSequence() || node.size() != 3) {
-    problems_->add("'" + path(key) + "' must be three numbers, x y z: [0, -9.81, 0]", place_of(node, key));
+    problems_->add("'" + path(key) + "' must be three numbers, x y z: " + (key == "gravity" ? "[0, -9.81, 0]" : "[0.1, 0, 0]"), place_of(node, key));
     return false;
   }
   std::vector<double> numbers;

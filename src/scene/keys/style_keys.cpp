@@ -12,6 +12,8 @@ namespace {
 constexpr const char* kNoStyle = "holds no style: write `light: {ink: \"#1A1A1A\"}`, `lines: 1.2` or what else it changes";
 constexpr double kThinnest = 0.5, kThickest = 2;          // `lines`
 constexpr double kShortestTrail = 0.2, kLongestTrail = 60;  // `trail`, s
+const std::string kWholeTrail = "all";
+constexpr Name kTrailWords[] = {{"all", "the whole way"}};
 constexpr double kSmallestLogo = 0.02, kLargestLogo = 0.2;  // units of H
 
 // "#1A2B3C", or 1A2B3C where nobody wants quotes.
@@ -112,9 +114,11 @@ void read_mapping(Fields& fields, Style& style) {
   if (fields.read("lines", style.lines) && !(style.lines >= kThinnest && style.lines <= kThickest))
     fields.problem_at("lines", "'" + fields.path("lines") + "' must lie between " + format_shortest(kThinnest) + " and " +
                                    format_shortest(kThickest) + ": 1.2 draws lines a fifth wider");
-  if (fields.read_seconds("trail", style.trail) && !(style.trail >= kShortestTrail && style.trail <= kLongestTrail))
+  if (const YAML::Node trail = fields.find("trail"); trail.IsScalar() && trail.Scalar() == kWholeTrail)
+    style.trail = std::numeric_limits<double>::infinity();
+  else if (fields.read_seconds("trail", style.trail) && !(style.trail >= kShortestTrail && style.trail <= kLongestTrail))
     fields.problem_at("trail", "'" + fields.path("trail") + "' must lie between " + format_shortest(kShortestTrail) + " s and " +
-                                   format_shortest(kLongestTrail) + " s: 3s keeps three seconds of the way");
+                                   format_shortest(kLongestTrail) + " s: 3s keeps three seconds of the way, all keeps all of it and does not fade");
   read_fonts(fields, style.fonts);
   read_logo(fields, style.logo);
 }
@@ -173,7 +177,8 @@ KeyText told_style() {
   KeyText style = told_record(
       "", {told_colors("light", "colours of the light theme, like \"#1A1A1A\""), told_colors("dark", "colours of the dark theme"),
            told("lines", KeyForm::number, "times the widths of outlines, curves, ellipses, trails and shafts of arrows").within({kThinnest, kThickest}),
-           told("trail", KeyForm::number, "s that the end effector's trail goes back; 1 where left out").within({kShortestTrail, kLongestTrail}),
+           told_either("trail", {told("", KeyForm::number, "").within({kShortestTrail, kLongestTrail}), told_word("", kTrailWords, "")},
+                       "s that the end effector's trail goes back, fading; `all`: the whole way, which does not fade; 1 where left out"),
            told_record("fonts",
                        {told("label", KeyForm::text, "family of words"),
                         told("bold", KeyForm::text, "family of titles, in its bold face; left out: that of `label`"),
@@ -214,7 +219,7 @@ std::string style_text(const Scene& scene) {
     emit_colors(out, "light", style.light);
     emit_colors(out, "dark", style.dark);
     if (style.lines != 1) out << YAML::Key << "lines" << YAML::Value << format_shortest(style.lines);
-    if (style.trail != 1) out << YAML::Key << "trail" << YAML::Value << format_shortest(style.trail);
+    if (style.trail != 1) out << YAML::Key << "trail" << YAML::Value << (std::isinf(style.trail) ? kWholeTrail : format_shortest(style.trail));
     const StyleFonts& fonts = style.fonts;
     if (!fonts.empty()) emit_texts(out, "fonts", {{"label", fonts.label}, {"bold", fonts.bold}, {"math", fonts.math}});
     if (const auto& logo = style.logo)

@@ -125,7 +125,7 @@ void prepare_motion(Scene& scene, Simulation& simulation) {
   scene.doubts.insert(scene.doubts.end(), motion->doubts().begin(), motion->doubts().end());
   if (const double first = entry.table->first; first != 0)
     scene.notices.push_back("t = 0 is the first row of " + entry.csv + ", whose '" + entry.columns.time.name + "' is " + format_shortest(first));
-  scene.notices.insert(scene.notices.end(), motion->remarks().begin(), motion->remarks().end());
+  for (std::string& remark : motion->remarks()) scene.notices.push_back(std::move(remark));
 }
 
 void prepare_tables(Scene& scene, const Chain& chain) {

@@ -263,34 +263,37 @@ class CellRuns {
     if (!along_x && result_.y.key != "step") return find_stable_cells();
     const std::size_t count = (along_x ? result_.y : result_.x).values.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const Simulation simulation = simulation_of(along_x ? At{0, i} : At{i, 0});
-      const Linearisation about = linearise(simulation);
+      Simulation simulation = simulation_of(along_x ? At{0, i} : At{i, 0});
+      const Linearisation about = linearise_along(simulation);
       result_.about_rest += about.about_target;
-      result_.about_motion += about.motion && !about.is_equilibrium;
+      result_.about_motion += about.motion && !about.is_equilibrium && about.along.empty();
+      result_.along_runs += !about.along.empty();
       result_.boundary.push_back(longest_stable_step(*simulation.method, about));
       if (!about.motion) continue;
       const std::vector<double>& steps = (along_x ? result_.x : result_.y).numbers;
       const std::size_t row = result_.x.values.size();
       for (std::size_t k = 0; k < steps.size(); ++k)
-        if (steps[k] > 0) result_.cells[along_x ? i * row + k : k * row + i].stable = is_stable(*simulation.method, *about.motion, steps[k]);
+        if (steps[k] > 0) result_.cells[along_x ? i * row + k : k * row + i].stable = is_stable_step(*simulation.method, about, steps[k]);
     }
     result_.linearised = int(count);
   }
 
   void find_stable_cells() {
     const std::size_t row = result_.x.values.size();
-    std::atomic<int> about_rest = 0, about_motion = 0;
+    std::atomic<int> about_rest = 0, about_motion = 0, along_runs = 0;
     for_each_index(result_.cells.size(), threads_, [&](std::size_t i) {
-      const Simulation simulation = simulation_of({i % row, i / row});
-      const Linearisation start = linearise(simulation);
+      Simulation simulation = simulation_of({i % row, i / row});
+      const Linearisation start = linearise_along(simulation);
       about_rest += start.about_target;
-      about_motion += start.motion && !start.is_equilibrium;
+      about_motion += start.motion && !start.is_equilibrium && start.along.empty();
+      along_runs += !start.along.empty();
       if (start.motion && simulation.step > 0)
-        result_.cells[i].stable = is_stable(*simulation.method, *start.motion, simulation.step);
+        result_.cells[i].stable = is_stable_step(*simulation.method, start, simulation.step);
     });
     result_.linearised = int(result_.cells.size());
     result_.about_rest = about_rest;
     result_.about_motion = about_motion;
+    result_.along_runs = along_runs;
   }
 
   std::string scene_;

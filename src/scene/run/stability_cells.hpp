@@ -34,8 +34,9 @@ struct StabilityCells {
   // Where one key is `step`, beside what StabilityCell::stable says: for each value of the other the longest
   // stable step of the motion linearised about the start, or about the rest that feedback leads to.
   std::vector<std::optional<double>> boundary;
-  // Motions that theory is of, those of them about the rest that feedback leads to, and about what is no equilibrium.
-  int linearised = 0, about_rest = 0, about_motion = 0;
+  // Motions that theory is of, those of them about the rest that feedback leads to, along whole runs besides, and about no more than
+  // what is no equilibrium.
+  int linearised = 0, about_rest = 0, along_runs = 0, about_motion = 0;
 
   const StabilityCell& at(std::size_t ix, std::size_t iy) const { return cells[iy * x.values.size() + ix]; }
 };

@@ -87,6 +87,15 @@ std::string title_of_page(const Scene& page) {
   });
 }
 
+std::string title_over_runs(const Scene& scene) {
+  if (scene.title.empty()) return scene.name;
+  if (!scene.compare.empty()) return title_of_page(scene);
+  return filled(scene.title, [&](const std::string& name) -> std::optional<std::string> {
+    if (name == kFall && has_fall(scene)) return "\u2026";
+    return parameter_of(scene, name);
+  });
+}
+
 std::vector<std::string> title_notices(const Scene& scene) {
   std::vector<std::string> notices;
   const bool is_page = !scene.compare.empty();  // its title is that of several runs

@@ -16,6 +16,10 @@ std::string title_of(const Scene& scene, const Trajectory& trajectory);
 // The title above a comparison, whose panels have the values: what it leaves open is an ellipsis.
 std::string title_of_page(const Scene& page);
 
+// The title of what several runs of a scene are shown in, as of a chart over methods: parameters have their values, what a run would
+// tell is an ellipsis. The scene's name where it has no title.
+std::string title_over_runs(const Scene& scene);
+
 // Of words in braces that stay as they are, a sentence each without end mark.
 std::vector<std::string> title_notices(const Scene& scene);
 

@@ -57,7 +57,11 @@ void check_list(Fields& page, const YAML::Node& list) {
 // What --set says of all panels, and each of them says itself, changes nothing.
 void require_that_overrides_count(const YamlDocument& document, const std::vector<YamlDocument>& panels) {
   std::vector<Problem> problems;
-  for (const Override& one : document.overrides) {
+  for (auto at = document.overrides.begin(); at != document.overrides.end(); ++at) {
+    const Override& one = *at;
+    // What comes later on the command line holds anyway.
+    const auto replaces = [&](const Override& other) { return one.key == other.key || one.key.starts_with(other.key + "."); };
+    if (std::any_of(at + 1, document.overrides.end(), replaces)) continue;
     const auto overrules = [&](const YamlDocument& panel) { return !panel.holds(one); };
     const bool is_of_page = std::find(std::begin(kKeysOfPage), std::end(kKeysOfPage), one.key.substr(0, one.key.find('.'))) != std::end(kKeysOfPage);
     if (is_of_page || one.value.empty() || !std::all_of(panels.begin(), panels.end(), overrules)) continue;

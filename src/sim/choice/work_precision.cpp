@@ -77,6 +77,13 @@ std::vector<MethodSetting> settings_of(const Simulation& simulation, const Metho
 
 }  // namespace
 
+// No double comes nearer to what it stands for, however near a run may come by luck.
+double rounding_of(const EndState& reference) {
+  double largest = 0;
+  for (const double q : reference.q) largest = std::max(largest, std::abs(q));
+  return 0x1p-53 * largest;
+}
+
 Rung measure(Simulation& simulation, const MethodSetting& setting, const EndState& reference, int runs,
              const StopRequest& stop) {
   apply(setting, simulation);
@@ -99,6 +106,7 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const EndStat
     rung.steps = trajectory.steps;
     rung.evaluations = trajectory.evaluations;
     find_errors(trajectory, reference, rung);
+    rung.error = std::max(rung.error, rounding_of(reference));
     rung.energy_error = kInfinity;
     if (trajectory.size() > 0) {
       const Trajectory audited = simulate_audited(simulation, end, stop);

@@ -281,21 +281,17 @@ void inverse_torque(const Chain& chain, Workspace& ws, ConstVec q, ConstVec qd, 
   }
 }
 
-RecordedMotion::OwnTorques compare_torques(const Chain& chain, const Reference& motion, const TimeTable& table) {
+// At the rows of a table, one after the other.
+std::vector<double> inverse_torques(const Chain& chain, const Reference& motion, const std::vector<double>& t) {
   const auto n = std::size_t(chain.nv);
   Workspace ws(chain);
-  std::vector<double> q(n), qd(n), qdd(n), tau(n);
-  RecordedMotion::OwnTorques worst;
-  worst.freedom = chain.coordinate_names.front();
-  for (std::size_t k = 0; k < table.t.size(); ++k) {
-    motion.evaluate(table.t[k], q, qd, qdd);
+  std::vector<double> q(n), qd(n), qdd(n), tau(n), all;
+  for (const double at : t) {
+    motion.evaluate(at, q, qd, qdd);
     inverse_torque(chain, ws, q, qd, qdd, tau);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double off = std::fabs(table.groups[3][i][k] - tau[i]);
-      if (off > worst.largest) worst = {off, table.t[k], chain.coordinate_names[i]};
-    }
+    all.insert(all.end(), tau.begin(), tau.end());
   }
-  return worst;
+  return all;
 }
 
 std::string words_of(const RecordedMotion::OwnTorques& own, const std::string& file) {
@@ -327,6 +323,7 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
   t_ = motion.t;
   second_ = *factor_of_unit(table_->units[std::size_t(table_->find(names.time.name))]);
   end_ = t_.back();
+  freedoms_ = chain.coordinate_names;
   has_rates_ = !motion.groups[1].empty();
   has_accelerations_ = !motion.groups[2].empty();
   splines_ = make_table_reference(motion, file);
@@ -338,10 +335,29 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
   derivatives.compare(1, 2, remarks_);
   remark_gap(*table_, motion.t, remarks_);
   if (!motion.groups[3].empty()) {
-    own_torques_ = compare_torques(chain, *splines_, motion);
-    remarks_.push_back(words_of(*own_torques_, file));
+    recorded_torques_ = motion.groups[3];
+    own_torques_ = own_torques_beside(inverse_torques(chain, *splines_, motion.t));
   }
   remark_unused(*table_, motion, names, remarks_);
+}
+
+std::optional<RecordedMotion::OwnTorques> RecordedMotion::own_torques_beside(const std::vector<double>& tau) const {
+  const std::size_t n = freedoms_.size();
+  if (recorded_torques_.empty()) return std::nullopt;
+  OwnTorques worst;
+  worst.freedom = freedoms_.front();
+  for (std::size_t k = 0; k < t_.size(); ++k)
+    for (std::size_t i = 0; i < n; ++i) {
+      const double off = std::fabs(recorded_torques_[i][k] - tau[k * n + i]);
+      if (off > worst.largest) worst = {off, t_[k], freedoms_[i]};
+    }
+  return worst;
+}
+
+std::vector<std::string> RecordedMotion::remarks(const std::optional<OwnTorques>& own) const {
+  std::vector<std::string> all = remarks_;
+  if (own) all.push_back(words_of(*own, table_->file));
+  return all;
 }
 
 std::vector<double> RecordedMotion::told_instants() const {

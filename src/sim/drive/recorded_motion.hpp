@@ -45,9 +45,12 @@ class RecordedMotion final : public Reference {
     std::string freedom;
   };
   const std::optional<OwnTorques>& own_torques() const { return own_torques_; }
+  // The same from other torques than those of the free chain, a row as long as the chain's freedoms at each of its rows.
+  std::optional<OwnTorques> own_torques_beside(const std::vector<double>& tau) const;
 
-  // What one should know who believes its picture, a sentence each.
-  const std::vector<std::string>& remarks() const { return remarks_; }
+  // What one should know who believes its picture, a sentence each; `own`: how far its own torques are from those that are told.
+  std::vector<std::string> remarks(const std::optional<OwnTorques>& own) const;
+  std::vector<std::string> remarks() const { return remarks(own_torques_); }
   // What speaks against its units, likewise: angles of more than a turn and rows far apart, where no unit is told.
   const std::vector<std::string>& doubts() const { return doubts_; }
 
@@ -57,6 +60,8 @@ class RecordedMotion final : public Reference {
   std::vector<double> t_;
   double end_ = 0, second_ = 1;  // s, of the last row; of one of the table's units of time
   bool has_rates_ = false, has_accelerations_ = false;
+  std::vector<std::string> freedoms_;
+  std::vector<std::vector<double>> recorded_torques_;  // of each freedom, a number a row; none
   std::optional<OwnTorques> own_torques_;
   std::vector<std::string> remarks_, doubts_;
 };

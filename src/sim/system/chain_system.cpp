@@ -59,7 +59,13 @@ void ChainSystem::evaluate_uncut(double t, ConstVec q, ConstVec qd) {
     evaluate_mean(t, q, qd);
   else
     torque_->evaluate(*chain_, ws_, t, q, qd, tau_);
-  if (constrained_ && constrained_->presses()) constrained_->press(ws_, q, qd, tau_);
+  if (!constrained_ || !constrained_->presses()) return;
+  // Pushes press on constraints, too.
+  if (pushes_ != nullptr) {
+    std::copy(tau_.begin(), tau_.end(), tau_applied_.begin());
+    pushes_->add_to(*chain_, ws_, t, q, qd, tau_applied_);
+  }
+  constrained_->press(ws_, q, qd, applied(), tau_);
 }
 
 // Over the branches that meet at the corners that are held, each with both of its sides.

@@ -45,8 +45,8 @@ void ConstrainedChain::accelerate(Workspace& ws, ConstVec q, ConstVec qd, ConstV
   suspicion_ = suspicion_ || is_unmet();
 }
 
-void ConstrainedChain::press(Workspace& ws, ConstVec q, ConstVec qd, Vec tau) {
-  compute_constrained_dynamics(*chain_, ws, set_, cws_, q, qd, tau, qdd_, options_);
+void ConstrainedChain::press(Workspace& ws, ConstVec q, ConstVec qd, ConstVec applied, Vec tau) {
+  compute_constrained_dynamics(*chain_, ws, set_, cws_, q, qd, applied, qdd_, options_);
   compute_constraints(*chain_, ws, set_, cws_, q, qd);
   const std::size_t nv = tau.size();
   for (const ContactForce& contact : contact_forces_) {

@@ -25,7 +25,7 @@ class ConstrainedChain {
 
   // Adds to tau the joint torques that bring the multipliers of the pressed constraints to what they are to
   // bear: tau + Jc^T (lambda_d - lambda), which changes lambda alone, and no acceleration.
-  void press(Workspace& ws, ConstVec q, ConstVec qd, Vec tau);
+  void press(Workspace& ws, ConstVec q, ConstVec qd, ConstVec applied, Vec tau);
 
   // Positions and velocities back onto the constraints.
   Projection project(Workspace& ws, Vec q, Vec qd);

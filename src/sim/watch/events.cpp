@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "dynamics/equation_of_motion.hpp"
+#include "expr/course.hpp"
 #include "sim/drive/probe.hpp"
 #include "sim/watch/first_instant.hpp"
 
@@ -20,6 +21,10 @@ Event::Test test_of(const Expression& when, const EventEntry& entry) {
   if (!comparison && when.compares_inside())
     return refuse(
         "is 1 or 0 and never crosses zero: write `min(q1 > 1, t > 2) > 0` for both, max for one of them");
+  // What only touches zero is found at no look: |x| - 0, (x - 1)^2, sin(x) - 1. Conditions of conditions are 0 for a while.
+  if (!when.compares_inside() && !values_of(when.difference().program()).has_both_signs())
+    return refuse("is never on both sides of zero, so that it can touch it at most, which no look at a run finds: name what passes zero, as "
+                  "`q1 + pi/2` for `abs(q1 + pi/2)`, or a bound that it passes, `abs(q1) < 0.1`");
   if (comparison && *comparison != Operation::equal && entry.direction != Crossing::either)
     return refuse("is a comparison, which says its direction itself: leave out `direction`");
   if (comparison == Operation::less) return Event::Test::below;
@@ -197,8 +202,10 @@ bool EventWatch::read(double t, ConstVec q, ConstVec qd) {
   set_probe(t, q, qd);
   for (std::size_t i = 0; i < now_.size(); ++i) {
     now_[i] = events_.list[i].value.evaluate(probe_.values());
-    if (std::isfinite(now_[i])) continue;
+    // Infinite at one instant it is a pole that a look fell on.
+    if (std::isfinite(now_[i]) || (std::isinf(now_[i]) && std::isfinite(before_[i].value))) continue;
     bad_ = int(i);
+    bad_at_ = t;
     return false;
   }
   return true;
@@ -233,13 +240,18 @@ double EventWatch::locate(Integrator& integrator, std::size_t i, double a, doubl
       [&](double value) { return happens(event, before_[i], value); });
 }
 
-// Whether the value changes its side by way of infinity and is never zero: beside a pole it is many times what it is a part of
-// the step away, behind a jump it is of that size.
-bool EventWatch::is_pole(Integrator& integrator, std::size_t i, double t) {
+// Whether the value changes its side by way of infinity and is never zero: near a pole it doubles at half the distance, near a zero it
+// is half as large, beside a jump it stays as it is. `a`, `b`: the part of the step in which it changes.
+bool EventWatch::is_pole(Integrator& integrator, std::size_t i, double t, double a, double b) {
   const Event& event = events_.list[i];
   if (event.test != Event::Test::changes_side) return false;
-  constexpr double kPole = 1e3;
-  return !(std::fabs(value_at(integrator, event, t)) <= kPole * std::max(std::fabs(before_[i].value), std::fabs(now_[i])));
+  constexpr double kNear = 1e-4;   // of the part
+  constexpr double kGrows = 1.5;   // at half the distance
+  const double d = std::max(kNear * (b - a), 100 * kInstantTolerance);
+  const auto size = [&](double at) { return std::fabs(value_at(integrator, event, at)); };
+  const auto grows = [&](double side) { return size(t + side * d) > kGrows * size(t + 2 * side * d); };
+  const bool has_left = t - 2 * d >= integrator.begin_time(), has_right = t + 2 * d <= integrator.time();
+  return (has_left || has_right) && (!has_left || grows(-1)) && (!has_right || grows(1));
 }
 
 void EventWatch::record(Integrator& integrator, const Pending& hit, EventHits& hits) {
@@ -264,7 +276,7 @@ bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
     for (std::size_t i = 0; i < now_.size(); ++i) {
       if (!happens(events_.list[i], before_[i], now_[i])) continue;
       const double when = locate(integrator, i, instant(look - 1), t);
-      if (!is_pole(integrator, i, when)) pending_.push_back({int(i), when});
+      if (!is_pole(integrator, i, when, instant(look - 1), t)) pending_.push_back({int(i), when});
     }
     std::sort(pending_.begin(), pending_.end(),
               [](const Pending& x, const Pending& y) { return x.t != y.t ? x.t < y.t : x.event < y.event; });

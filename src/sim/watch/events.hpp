@@ -142,7 +142,8 @@ class EventWatch {
   bool check_step(Integrator& integrator, EventHits& hits);
 
   bool has_ended() const { return ended_; }  // by an event: the last of the hits
-  int bad_event() const { return bad_; }     // the one whose value was no finite number
+  int bad_event() const { return bad_; }     // the one whose value was no finite number ..
+  double bad_instant() const { return bad_at_; }  // .. and when, s
 
  private:
   struct State {
@@ -159,7 +160,7 @@ class EventWatch {
   void set_probe(double t, ConstVec q, ConstVec qd);
   double value_at(Integrator& integrator, const Event& event, double t);
   double locate(Integrator& integrator, std::size_t event, double begin, double end);
-  bool is_pole(Integrator& integrator, std::size_t event, double t);
+  bool is_pole(Integrator& integrator, std::size_t event, double t, double a, double b);
   static bool happens(const Event& event, const State& before, double value);
   void record(Integrator& integrator, const Pending& hit, EventHits& hits);
 
@@ -173,6 +174,7 @@ class EventWatch {
   std::vector<double> q_, qd_, qdd_;
   bool ended_ = false;
   int bad_ = -1;
+  double bad_at_ = 0;
 };
 
 }  // namespace chainreel

@@ -20,7 +20,7 @@ constexpr double kAspect = 16.0 / 9.0;
 constexpr double kSheetRoundOff = 1e-12;
 
 ContactSheetLook look(double text_scale = 1, int columns = 0) {
-  return {kAspect, columns, "", text_scale, &light_theme(), &fonts()};
+  return {kAspect, columns, "", text_scale, size::kTick, &light_theme(), &fonts()};
 }
 
 // One of each shape that a page may hold, some of it cut by a clip, some beyond the page.

@@ -112,7 +112,7 @@ TEST(Caption, ShowsLambdaWithThreeDigits) {
   const Chain chain = test::model("rr");
   using Rows = std::vector<std::vector<std::string>>;
   EXPECT_EQ(matrix_notations(*mass_of(chain, {0, 150 * kDeg}).Lambda),
-            (Rows{{"4", "-1.73"}, {"-1.73", "2"}}));
+            (Rows{{"4.00", "-1.73"}, {"-1.73", "2.00"}}));
   EXPECT_EQ(matrix_notations(*mass_of(chain, {0, 90 * kDeg}).Lambda), (Rows{{"1", "0"}, {"0", "2"}}));
 }
 

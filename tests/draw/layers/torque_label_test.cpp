@@ -19,6 +19,28 @@ TEST(TorqueLabel, SaysWhatActsAsTheLectureWritesIt) {
   EXPECT_EQ(label("rr", {"0", "0.0"}), "tau = 0");
 }
 
+// What presses on constraints drives the joints, too, and what is cut does not.
+TEST(TorqueLabel, TellsContactForcesAndCuts) {
+  Scene scene;
+  scene.torque.resize(2);
+  for (TorqueEntry& entry : scene.torque) entry.text = "0";
+  Chain chain = test::model("rr");
+  scene.contact_force.push_back({1, {0, -5}, {}});
+  EXPECT_EQ(torque_notations(chain, scene), (std::vector<std::string>{"tau = \"contact force 5 N\""}));
+  scene.torque[0].text = "10";
+  EXPECT_EQ(torque_notations(chain, scene).front(), "tau = (10, 0) N m + \"contact force 5 N\"");
+  scene.contact_force.push_back({2, {3, 4, 0}, {}});
+  EXPECT_EQ(torque_notations(chain, scene).front(), "tau = (10, 0) N m + \"contact forces 5, 5 N\"");
+  scene.contact_force.clear();
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) chain.bodies[b].joint.limit.effort = 2;
+  EXPECT_EQ(torque_notations(chain, scene).front(), "tau = (10, 0) N m");
+  scene.limit = LimitPolicy::clamp;
+  EXPECT_EQ(torque_notations(chain, scene).front(), "tau = (10, 0) N m\", cut at \"2 N m");
+  chain.bodies[1].joint.limit.effort = 3;
+  EXPECT_EQ(torque_notations(chain, scene).front(), "tau = (10, 0) N m\", cut at the joints' efforts\"");
+  for (const std::string& form : torque_notations(chain, scene)) EXPECT_NO_THROW(lay_out_math(fonts(), form, {}));
+}
+
 TEST(TorqueLabel, ShowsExpressionsAsWritten) {
   EXPECT_EQ(label("pp", {"0", "-100 * y_G"}), "tau = (0, -100 * y_G) N");
 }

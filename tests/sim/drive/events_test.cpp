@@ -188,11 +188,51 @@ TEST(Events, PolesAreNoZeros) {
   run.qd0[0] = 1;
   run.chain.gravity.setZero();
   run.torque = make_torque_law(run.chain, {{"0", {}, {}}, {"0", {}, {}}}, {});
-  look_for(run, {event("tan(q1)"), event("1 / (q1 - 0.4)"), event("1 / (q1 - 0.4) > 1000")});
-  const std::vector<double> times = times_of(run);
-  ASSERT_EQ(times.size(), 2u);
-  EXPECT_NEAR(times[0], 0.4, kInstant) << "larger than 1000 from behind the pole on";
-  EXPECT_NEAR(times[1], std::numbers::pi, 1e-9);
+  look_for(run, {event("tan(q1)"), event("1 / (q1 - 0.4)"), event("1 / (q1 - 0.4) > 1")});
+  const EventHits hits = simulate(run, instants(4, 0.1)).events;
+  ASSERT_EQ(hits.size(), 2);
+  EXPECT_EQ(hits.event, (std::vector<int>{2, 0})) << "larger than 1 from behind the pole on";
+  EXPECT_NEAR(hits.t[0], 0.4, kInstant);
+  EXPECT_NEAR(hits.t[1], std::numbers::pi, 1e-9);
+}
+
+// Steps of rk4 end on the pole or near it, and a look may find it infinite: no zero, whichever.
+TEST(Events, PolesAreNoZerosWhereverStepsEnd) {
+  for (const auto& [method, step] : {std::pair{"rk4", 0.01}, {"rk4", 0.007}, {"rk4", 0.125}, {"dop853", 0.125}, {"radau5", 0.0625}})
+    for (const char* pole : {"1 / (q1 - 0.5)", "1 / (q1 - 0.503)", "tan(pi * q1)"}) {
+      Simulation run = run_of("pp", {"0", "0"}, 0.9, method, step);
+      run.qd0[0] = 1;
+      run.chain.gravity.setZero();
+      run.torque = make_torque_law(run.chain, {{"0", {}, {}}, {"0", {}, {}}}, {});
+      look_for(run, {event(pole), event("q1 - 0.7")});
+      const Trajectory trajectory = simulate(run, instants(0.9, 0.1));
+      ASSERT_EQ(trajectory.status, RunStatus::finished) << method << " " << step << " " << pole << ": " << trajectory.trouble;
+      ASSERT_EQ(trajectory.events.size(), 1) << method << " " << step << " " << pole;
+      EXPECT_NEAR(trajectory.events.t[0], 0.7, 1e-9);
+    }
+  // What stays infinite is told, with its own instant.
+  Simulation lost = run_of("pp", {"0", "0"}, 1, "rk4", 0.01);
+  lost.chain.gravity.setZero();
+  lost.torque = make_torque_law(lost.chain, {{"0", {}, {}}, {"0", {}, {}}}, {});
+  look_for(lost, {event("exp(2000 * t) - 2")});
+  const Trajectory trajectory = simulate(lost, instants(1, 0.1));
+  EXPECT_EQ(trajectory.status, RunStatus::event_not_finite);
+  EXPECT_NEAR(trajectory.end_time, 0.355, 0.01) << "2000 t = 709.8";
+}
+
+// No look at a run would find it: that is said, and never that it does not happen.
+TEST(Events, ThatOnlyTouchZeroAreRefused) {
+  Simulation run = run_of("pp", {"0", "0"}, 1);
+  for (const char* touches : {"abs(q1 - 0.5)", "(q1 - 0.5)^2", "abs(q1 - 0.5) <= 0", "sin(q1) - 1", "sqrt(q1)", "-abs(q1) - q2^2", "abs(q1) == 0", "exp(t)"}) {
+    try {
+      look_for(run, {event(touches)});
+      ADD_FAILURE() << touches;
+    } catch (const Error& error) {
+      EXPECT_THAT(std::string(error.what()), HasSubstr("is never on both sides of zero")) << touches;
+    }
+  }
+  for (const char* passes : {"abs(q1) - 0.1", "abs(q1) < 0.1", "min(q1 > 1, t > 2) > 0", "q1^3", "q1 * abs(q1)", "max(q1, q2)", "sin(q1)", "log(q1)", "q1^2 - q2^2", "sqrt(q1) > 1"})
+    EXPECT_NO_THROW(look_for(run, {event(passes)})) << passes;
 }
 
 TEST(StopEvent, EndsTheRunAtItsInstantAndTheAuditHolds) {

@@ -1,0 +1,118 @@
+#include "app/gallery/gallery_pictures.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "app/film/clip_memory.hpp"
+#include "app/film/clip_origin.hpp"
+#include "app/film/formats.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/input_file.hpp"
+#include "picture/formula_words.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kKinds[][2] = {{".png", "image/png"}, {".svg", "image/svg+xml"}};
+constexpr std::uintmax_t kLargestPicture = 50'000'000;  // bytes
+
+bool remembers(const std::string& path) {
+  try {
+    recall(path);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::vector<std::string> films_of(const fs::path& folder) {
+  std::vector<std::string> stems;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (find_output_format(entry.path().string(), Shows::motion) != nullptr) stems.push_back(entry.path().stem().string());
+  return stems;
+}
+
+// pen.png, pen_chart.png and pen.poster.png go with pen.mp4.
+bool goes_with(const fs::path& picture, const std::vector<std::string>& films) {
+  const std::string stem = picture.stem().string();
+  return std::any_of(films.begin(), films.end(), [&](const std::string& film) {
+    return stem == film || stem.starts_with(film + "_") || stem.starts_with(film + ".");
+  });
+}
+
+// By its first bytes: a browser shows nothing of what is only named so.
+bool is_what_its_name_says(const std::string& path, const std::string& type) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string start(512, ' ');
+  stream.read(start.data(), std::streamsize(start.size()));
+  start.resize(std::size_t(std::max<std::streamsize>(stream.gcount(), 0)));
+  return type == "image/png" ? start.starts_with("\x89PNG\r\n\x1a\n") : start.find("<svg") != std::string::npos;
+}
+
+std::string title_of(const std::string& path) {
+  try {
+    const ClipMemory memory = recall(path);
+    const std::string filled = word_of(memory.audit, "title");  // which says what the scene's leaves open
+    if (const std::string& title = filled.empty() ? memory.title : filled; !title.empty()) return in_plain_words(title);
+  } catch (const Error&) {
+    // Another program's: it has its name.
+  }
+  return fs::path(path).stem().string();
+}
+
+}  // namespace
+
+std::string shown_endings(const std::string& last_word) {
+  return std::string(kKinds[0][0]) + " " + last_word + " " + kKinds[1][0];
+}
+
+std::string picture_type_of(const std::string& path) {
+  for (const auto& [ending, type] : kKinds)
+    if (lower_case_ending(path) == ending) return type;
+  return "";
+}
+
+std::vector<std::string> pictures_in(const std::string& folder, std::vector<std::string>& left_out) {
+  const std::vector<std::string> films = films_of(folder);
+  std::vector<std::string> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string path = entry.path().string();
+    std::error_code code;
+    if (!entry.is_regular_file(code) || goes_with(entry.path(), films)) continue;
+    if (!picture_type_of(path).empty()) {
+      if (remembers(path)) found.push_back(path);
+      continue;
+    }
+    const OutputFormat* format = find_output_format(path);
+    const bool is_picture = format != nullptr && format->write_still != nullptr;
+    const bool has_other = std::any_of(std::begin(kKinds), std::end(kKinds), [&](const auto& kind) {
+      return fs::exists(fs::path(path).replace_extension(kind[0]), code);
+    });
+    if (is_picture && !has_other && remembers(path)) left_out.push_back(path);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<GalleryPicture> read_pictures(const std::vector<std::string>& paths) {
+  std::vector<GalleryPicture> pictures;
+  std::vector<Problem> problems;
+  for (const std::string& path : paths) {
+    note_input(path);
+    const std::string type = picture_type_of(path);
+    if (fs::file_size(path) > kLargestPicture)
+      problems.push_back({"has more than " + std::to_string(kLargestPicture / 1'000'000) + " MB, too many for a picture in a page", {path}});
+    else if (!is_what_its_name_says(path, type))
+      problems.push_back({"is named " + lower_case_ending(path) + " but is no such picture", {path}});
+    else
+      pictures.push_back({path, type, title_of(path)});
+  }
+  if (!problems.empty()) throw Error(ExitCode::bad_input, std::move(problems));
+  return pictures;
+}
+
+}  // namespace chainreel
