@@ -153,6 +153,36 @@ PlotCurves energies(const Simulation& simulation, const Trajectory& trajectory, 
   return plot;
 }
 
+// Where a curve changes its sign while it grows on both sides it has a pole, whose samples are as high as chance has it: it is cut
+// there, down to some times its usual height, so that the rest of it can be read.
+void cut_poles(std::vector<double>& y) {
+  constexpr double kUsual = 6;  // times the median magnitude
+  std::vector<double> sizes;
+  for (const double one : y)
+    if (std::isfinite(one)) sizes.push_back(std::fabs(one));
+  if (sizes.size() < 8) return;
+  const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double most = kUsual * *middle;
+  const auto count = std::ptrdiff_t(y.size());
+  // Ever faster, on the way there from three samples away.
+  const auto grows = [&](std::ptrdiff_t at, std::ptrdiff_t way) {
+    const std::ptrdiff_t far = at + 2 * way;
+    if (far < 0 || far >= count) return false;
+    const double a = std::fabs(y[std::size_t(far)]), b = std::fabs(y[std::size_t(at + way)]), c = std::fabs(y[std::size_t(at)]);
+    return c > b && b > a && c - b > b - a;
+  };
+  std::vector<std::ptrdiff_t> poles;  // between this sample and the next
+  for (std::ptrdiff_t k = 0; k + 1 < count; ++k) {
+    const double left = y[std::size_t(k)], right = y[std::size_t(k + 1)];
+    if (left * right < 0 && std::min(std::fabs(left), std::fabs(right)) > *middle && grows(k, -1) && grows(k + 1, 1)) poles.push_back(k);
+  }
+  const std::vector<double> whole = y;
+  for (const std::ptrdiff_t pole : poles)
+    for (const int way : {-1, 1})
+      for (std::ptrdiff_t k = way < 0 ? pole : pole + 1; k >= 0 && k < count && (k == pole || k == pole + 1 || std::fabs(whole[std::size_t(k)]) > most); k += way) y[std::size_t(k)] = NAN;
+}
+
 PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory,
                      int samples) {
   const Chain& chain = simulation.chain;
@@ -175,6 +205,7 @@ PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simula
     }
     curve.y.push_back(value.evaluate(probe.values()));
   }
+  cut_poles(curve.y);
   simulation.torque->leave_pieces();
   PlotCurves plot;
   plot.curves.push_back(std::move(curve));

@@ -98,6 +98,12 @@ class Namer {
     return ways_.back().named;
   }
 
+  // "link2 with its payload"
+  std::string whose(std::size_t i) const {
+    const bool carries = std::any_of(chain_.point_masses.begin(), chain_.point_masses.end(), [&](const PointMass& one) { return one.is_payload && one.body == int(i); });
+    return chain_.bodies[i].name + (carries ? " with its payload" : "");
+  }
+
   // The centre of mass at the end or in the middle of the body's way is said by that.
   Algebra3 name_com(std::size_t i, const Vector3d& com) {
     for (const auto& [share, factor] : {std::pair{1.0, numeric(1)}, {0.5, numeric(1, 2)}})
@@ -105,7 +111,7 @@ class Namer {
         if (way.from == int(i) && way.v.norm() > 0 && (com - share * way.v).norm() <= kSame * way.v.norm())
           return {factor * way.named[0], factor * way.named[1], factor * way.named[2]};
     const Body& body = chain_.bodies[i];
-    return name_vector(com, {"c", std::to_string(i), "m", "centre of mass of " + body.name, SymbolKind::length}, symbols_);
+    return name_vector(com, {"c", std::to_string(i), "m", "centre of mass of " + whose(i), SymbolKind::length}, symbols_);
   }
 
   // A rod's about its middle, by its mass and length; nothing where it is no rod's.
@@ -121,7 +127,7 @@ class Namer {
 
   void name_inertia(std::size_t i, BodyParameters& named) {
     const Body& body = chain_.bodies[i];
-    const std::string of = "of " + body.name + " about its centre of mass";
+    const std::string of = "of " + whose(i) + " about its centre of mass";
     const double size = body.inertia.about_com.trace();
     named.planar_inertia = 0;
     for (Algebra3& row : named.inertia) row = {0, 0, 0};
@@ -149,7 +155,7 @@ class Namer {
     const std::string index = std::to_string(i);
     named.mass = 0;
     if (body.inertia.mass > 0)
-      named.mass = symbols_.add({"m", index, SymbolKind::mass, body.inertia.mass, "kg", "mass of " + body.name});
+      named.mass = symbols_.add({"m", index, SymbolKind::mass, body.inertia.mass, "kg", "mass of " + whose(i)});
     named.com = name_com(i, in_motion(int(i), body.inertia.com));
     name_inertia(i, named);
     const bool turns = body.joint.kind == JointKind::revolute;

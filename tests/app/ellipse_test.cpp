@@ -298,6 +298,12 @@ TEST(PayloadCommand, AddsItsMassToLambdaInEachDirection) {
   const std::string csv = folder.file("s/table.csv");
   const ProgramResult sweep = run_program({"sweep", "rr_free", "--set", "duration=0.2", "--over", "payload.mass=0:2:3", "-o", folder.file("s"), "--quiet"});
   ASSERT_EQ(sweep.status, 0) << sweep.err;
+  // Where it is means nothing without a mass; one of zero, as in a sweep, has a place.
+  for (const char* lone : {"payload.at=[0.1, 0, 0]", "payload.at.1=0.1", "payload.link=link1"})
+    EXPECT_THAT(run_program({"check", "rr_free", "--set", lone}).err, testing::HasSubstr("give payload.mass")) << lone;
+  EXPECT_EQ(run_program({"check", "rr_free", "--set", "payload={mass: 0, at: [0.1, 0, 0]}"}).status, 0);
+  // A symbol of a link that carries it is not the link's alone.
+  EXPECT_THAT(run_program({"equations", "models/rr.urdf", "--set", "payload.mass=3"}).out, testing::HasSubstr("mass of link2 with its payload"));
   EXPECT_THAT(run_program({"check", "rr_free", "--set", "payload.mass=-1"}).err, testing::HasSubstr("payload.mass"));
   EXPECT_THAT(run_program({"check", "rr_free", "--set", "payload.mass=1", "--set", "payload.link=elbow"}).err, testing::HasSubstr("'payload.link' names no link"));
 }

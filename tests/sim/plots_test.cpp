@@ -90,6 +90,30 @@ TEST(Plots, EvaluateExpressionsAtTheSamples) {
   }
 }
 
+// Samples beside a pole are as high as chance has it: the curve is cut there; one that only jumps, or is steep, is whole. q1 = t.
+TEST(Plots, AreCutAtPoles) {
+  Simulation run = run_of("pp", {"0", "0"}, 2, "rk4", 0.01);
+  run.chain.gravity.setZero();
+  run.torque = make_torque_law(run.chain, {{"0", {}, {}}, {"0", {}, {}}}, {});
+  run.qd0[0] = 1;
+  run.plots = make_plots(run.chain, {{"1 / (q1 - 0.503)", "", {}}, {"tan(3 * q1)", "", {}}, {"20 * (t > 0.5) - 10", "", {}}, {"exp(4 * q1) - exp(2 - 4 * q1)", "", {}}}, {}, {}, std::nullopt, 0);
+  std::vector<double> times;
+  for (int k = 0; k <= 120; ++k) times.push_back(k / 60.0);
+  const auto plots = plot_curves(run, simulate(run, times), int(times.size()));
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    double highest = 0;
+    int gaps = 0;
+    for (const double y : plots[i].curves[0].y) std::isfinite(y) ? void(highest = std::max(highest, std::abs(y))) : void(++gaps);
+    if (i >= 2) {
+      EXPECT_EQ(gaps, 0) << plots[i].title;
+      continue;
+    }
+    EXPECT_GE(gaps, 2) << plots[i].title;
+    EXPECT_LT(gaps, 20) << plots[i].title;
+    EXPECT_LT(highest, 15) << plots[i].title << ": six times what it usually is";
+  }
+}
+
 TEST(Plots, EnergyErrorIsTheAudits) {
   const auto plots = curves_of({{"energy_error", "", {}}, {"energy", "", {}}});
   // At a tolerance of 1e-10 over a second; the energy itself changes by the torques' work.

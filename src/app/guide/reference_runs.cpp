@@ -95,7 +95,8 @@ std::string expressions_page() {
   return "# Expressions\n\n"
          "Torques, references, events and plots may be expressions. They are in SI units and radians; of units a number may have `deg` or `rad`:\n"
          "`q1 - 45deg`.\n"
-         "Where a torque has corners (comparisons, abs, min, max), steps end at them.\n\n" +
+         "Where a torque has corners (comparisons, abs, min, max), steps end at them. Curves of plots are cut where they have a pole. An event is\n"
+         "an instant at which its expression passes zero: one that only touches it, like abs(q1), is refused.\n\n" +
          table_of("name", variables) + "\n" + table_of("operator", operators) + "\n" +
          table_of("function", expression_functions()) + "\n" +
          code_block("yaml", "parameters: {k: 80, F: 0.5}\ntorque: [-k * (q1 - sin(2 * t)), -F * max(-1, min(1, qd2 / 0.01))]\n"

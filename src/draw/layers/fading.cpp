@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kDash = 0.012, kGap = 0.008;
 constexpr double kNumberGaps[] = {0.010, 0.018};        // units of H, beyond the end of a semi-axis
+constexpr double kBesideGaps[] = {0.010, 0.018, 0.03};    // ... beside it, of one that is short
 constexpr double kFarNumberGaps[] = {0.05, 0.09, 0.13};  // ... where a robot is in the way
 constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
 constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
@@ -288,6 +289,14 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
     return;
   }
   MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
+  // That of an axis shorter than its words are high stands beside it: beyond its end it would stand nearer to the tip of the other one.
+  if (norm(v) < word.line.box.height())
+    for (const double gap : kBesideGaps)
+      for (const double side : {1.0, -1.0}) {
+        const Point end = center + side * v;
+        const Rect place = place_beyond(word.line, end, gap, {std::copysign(1.0, side * v.x), 0});
+        if (std::abs(v.x) > std::abs(v.y) / 2 && is_within(place, style.scene)) word.places.push_back(place);
+      }
   for (const double gap : kNumberGaps)
     for (const double side : {1.0, -1.0}) {
       const Point d = side * unit(v), end = center + side * v;

@@ -99,6 +99,13 @@ void check_motion(Fields& fields, const Scene& scene) {
     fields.problem_at("base", "'motion' tells the places of joints, and a floating base has none: leave `base: floating` out");
 }
 
+// Where a load is, of none, would mean nothing.
+void check_payload(Fields& fields, const Scene& scene) {
+  const YAML::Node payload = fields.find("payload");
+  if (payload.IsMap() && payload.size() > 0 && !payload["mass"].IsDefined() && scene.payload.mass == 0)
+    fields.problem_at("payload", "'payload' says where a load is, and not how heavy: give payload.mass, kg");
+}
+
 void check_foot(Fields& fields, Scene& scene) {
   if (!fields.find("foot").IsMap()) return;
   if (!scene.foot) scene.foot.emplace();
@@ -141,6 +148,7 @@ void check_frames(Fields& fields, const Scene& scene) {
 void check_together(Fields& fields, Scene& scene) {
   if (!scene.motion) check_method_keys(fields, scene);
   check_motion(fields, scene);
+  check_payload(fields, scene);
   check_foot(fields, scene);
   check_baumgarte(fields, scene);
   check_sides(fields, scene);
