@@ -20,12 +20,6 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t(256) << 20;  // bytes
 
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
 }  // namespace
 
 std::vector<std::string> csv_fields(const std::string& line, const Place& place) {

@@ -64,6 +64,12 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
 std::vector<std::string> separated(const std::string& text, char sign) {
   std::vector<std::string> parts;
   std::istringstream stream(text);

@@ -18,6 +18,8 @@ std::string format_significant(double value, int digits);  // below 1e5 without 
 std::string lower_case_ending(const std::string& path);
 
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
+// Without what stands at both ends of it: spaces, tabs, carriage returns.
+std::string trimmed(const std::string& text);
 // What stands between the signs: "a,,b" is three, nothing none; behind the last sign nothing is counted.
 std::vector<std::string> separated(const std::string& text, char sign);
 std::string quoted_list(const std::vector<std::string>& names);  // 'a', 'b'

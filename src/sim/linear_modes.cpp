@@ -147,17 +147,14 @@ class LookedAt {
   long most_;
 };
 
-// At instants of the run, as far as it can be looked at cheaply.
+// At the ends of the steps of a method that takes shorter ones where more happens, as far as that is cheap.
 std::vector<State> states_along(Simulation& simulation) {
-  constexpr int kInstants = 32;
   constexpr long kMostEvaluations = 20000;
   const LookedAt own(simulation);
   apply({&find_method("dop853"), {1e-6, 0}, 0}, simulation);
   simulation.motion_only = true;
   simulation.most_evaluations = kMostEvaluations;
-  std::vector<double> times;
-  for (int k = 0; k <= kInstants; ++k) times.push_back(simulation.duration * k / kInstants);
-  const Trajectory trajectory = simulate(simulation, times);
+  const Trajectory trajectory = simulate_every_step(simulation);
   std::vector<State> states;
   for (int k = 0; k < trajectory.size(); ++k) {
     const ConstVec q = trajectory.q_at(k), qd = trajectory.qd_at(k);
@@ -166,18 +163,42 @@ std::vector<State> states_along(Simulation& simulation) {
   return states;
 }
 
-// The motion at instants of the run, and about the rest near its start and its end.
+// Along what the constraints leave free there.
+LinearMotion free_motion(ChainSystem& system, const Simulation& simulation, const Slopes& slopes, ConstVec q) {
+  if (!system.constrained()) return without_noise({slopes.K, slopes.D});
+  const Eigen::MatrixXd T = free_directions(simulation.chain, system.workspace(), system.constrained()->set(), q);
+  return without_noise({product(T.transpose(), product(slopes.K, T)), product(T.transpose(), product(slopes.D, T))});
+}
+
+// The motion at the stiffest instants of the run and at some others, and about the rest near its start and its end. Under constraints as
+// if it stood still there: what they bend of a motion is no part of it.
 std::vector<LinearMotion> motions_along(ChainSystem& system, Simulation& simulation) {
-  std::vector<LinearMotion> motions;
-  const auto add = [&](const State& place) {
+  constexpr std::size_t kStiffest = 12, kOthers = 20;
+  struct Seen {
+    double stiffness;
+    LinearMotion motion;
+  };
+  std::vector<Seen> seen;
+  const auto add = [&](State place) {
+    if (system.constrained()) std::fill(place.qd.begin(), place.qd.end(), 0.0);
     const Slopes slopes = slopes_of(system, simulation, place);
-    if (slopes.K.allFinite() && slopes.D.allFinite()) motions.push_back(without_noise({slopes.K, slopes.D}));
+    if (!slopes.K.allFinite() || !slopes.D.allFinite()) return;
+    LinearMotion motion = free_motion(system, simulation, slopes, place.q);
+    if (motion.n() == 0) return;
+    seen.push_back({std::max(std::sqrt(motion.K.cwiseAbs().maxCoeff()), motion.D.cwiseAbs().maxCoeff()), std::move(motion)});
   };
   const std::vector<State> states = states_along(simulation);
   simulation.torque->leave_pieces();
   for (const State& place : states) add(place);
-  for (const std::vector<double>& guess : {simulation.q0, states.empty() ? simulation.q0 : states.back().q})
-    if (const std::optional<State> rest = equilibrium_from(system, simulation, guess)) add(*rest);
+  std::vector<LinearMotion> motions;
+  for (std::size_t k = 0; k < kOthers && !seen.empty(); ++k) motions.push_back(seen[k * (seen.size() - 1) / (kOthers - 1)].motion);
+  std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.stiffness > b.stiffness; });
+  for (std::size_t k = 0; k < std::min(kStiffest, seen.size()); ++k) motions.push_back(seen[k].motion);
+  seen.clear();
+  if (!system.constrained())
+    for (const std::vector<double>& guess : {simulation.q0, states.empty() ? simulation.q0 : states.back().q})
+      if (const std::optional<State> rest = equilibrium_from(system, simulation, guess)) add(*rest);
+  for (const Seen& one : seen) motions.push_back(one.motion);
   return motions;
 }
 
@@ -229,10 +250,22 @@ Linearisation linearise(const Simulation& simulation) {
 Linearisation linearise_along(Simulation& simulation) {
   Linearisation start = linearise(simulation);
   // What is stiffer than the start, a run that begins elsewhere than at rest may pass.
-  const bool stays = start.is_equilibrium && !start.about_target;
-  if (stays || simulation.chain.nq != simulation.chain.nv || !simulation.constraints.empty()) return start;
-  ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
-  start.along = motions_along(system, simulation);
+  const bool stays = start.trouble.empty() && start.is_equilibrium && !start.about_target;
+  if (!stays && simulation.chain.nq == simulation.chain.nv) {
+    ChainSystem system(simulation.chain, *simulation.torque, simulation.limit, simulation.constraints);
+    start.along = motions_along(system, simulation);
+  }
+  // What holds constraints down by Baumgarte decays by itself: phi'' + 2 g phi' + g^2 phi = 0.
+  if (const ConstraintPlan& plan = simulation.constraints; !plan.empty() && plan.stabilize == Stabilization::baumgarte)
+    start.along.push_back({Eigen::MatrixXd::Constant(1, 1, -plan.gain * plan.gain), Eigen::MatrixXd::Constant(1, 1, -2 * plan.gain)});
+  if (start.trouble.empty() || start.along.empty()) return start;
+  // The start itself may have none.
+  const auto swings = std::ranges::find_if(start.along, [](const LinearMotion& one) { return !rates_of(one).empty(); });
+  if (swings == start.along.end()) return start;
+  start.motion = *swings;
+  start.rates = rates_of(*swings);
+  start.trouble.clear();
+  start.is_equilibrium = false;
   return start;
 }
 

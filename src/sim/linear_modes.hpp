@@ -25,8 +25,9 @@ struct Linearisation {
   // equilibrium, and what holds there need not hold later.
   double rate = 0, acceleration = 0;
   bool is_equilibrium = true;
-  // Of a run that does not begin at rest, besides: the motion at instants of it, and about the rest that lies near its start or its
-  // end. Empty of floating bases and under constraints, where no more than the start is known.
+  // Of a run that does not begin at rest, besides: the motion at its stiffest instants and at some others, and about the rest that lies
+  // near its start or its end; under constraints as if it stood still there, and what holds them down by Baumgarte. Of floating
+  // bases no more than the start is known.
   std::vector<LinearMotion> along;
 
   // Of all that is looked at: the fastest rate.

@@ -156,7 +156,9 @@ PlotCurves energies(const Simulation& simulation, const Trajectory& trajectory, 
 // Where a curve changes its sign while it grows on both sides it has a pole, whose samples are as high as chance has it: it is cut
 // there, down to some times its usual height, so that the rest of it can be read.
 void cut_poles(std::vector<double>& y) {
-  constexpr double kUsual = 6;  // times the median magnitude
+  constexpr double kUsual = 6;          // times the median magnitude
+  constexpr std::ptrdiff_t kNear = 4;   // samples
+  constexpr double kAlone = 1e4;        // times what is beside it, and the median
   std::vector<double> sizes;
   for (const double one : y)
     if (std::isfinite(one)) sizes.push_back(std::fabs(one));
@@ -178,9 +180,16 @@ void cut_poles(std::vector<double>& y) {
     if (left * right < 0 && std::min(std::fabs(left), std::fabs(right)) > *middle && grows(k, -1) && grows(k + 1, 1)) poles.push_back(k);
   }
   const std::vector<double> whole = y;
-  for (const std::ptrdiff_t pole : poles)
+  const auto size_at = [&](std::ptrdiff_t k) { return k >= 0 && k < count && std::isfinite(whole[std::size_t(k)]) ? std::fabs(whole[std::size_t(k)]) : 0; };
+  for (const std::ptrdiff_t pole : poles) {
+    // Of a curve that is next to nothing elsewhere what is near its pole is the curve.
+    const double least = std::max({most, size_at(pole - kNear), size_at(pole + 1 + kNear)});
     for (const int way : {-1, 1})
-      for (std::ptrdiff_t k = way < 0 ? pole : pole + 1; k >= 0 && k < count && (k == pole || k == pole + 1 || std::fabs(whole[std::size_t(k)]) > most); k += way) y[std::size_t(k)] = NAN;
+      for (std::ptrdiff_t k = way < 0 ? pole : pole + 1; k == pole || k == pole + 1 || size_at(k) > least; k += way) y[std::size_t(k)] = NAN;
+  }
+  // A sample that fell on a pole stands far above all others, also where the sign stays or the rest of the curve hides that it grows.
+  for (std::ptrdiff_t k = 0; k < count; ++k)
+    if (size_at(k) > kAlone * std::max({*middle, size_at(k - 1), size_at(k + 1)})) y[std::size_t(k)] = NAN;
 }
 
 PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory,

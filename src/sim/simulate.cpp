@@ -60,7 +60,7 @@ class Run {
       trajectory_.start_sides.push_back(system_.corners()->side(k));
     look_at_limits_of_start();
     integrator_->start(0, q_, qd_);
-    if (simulation.events && !simulation.events->list.empty()) watch_.emplace(*simulation.events, system_);
+    if (simulation.events && !simulation.events->list.empty()) watch_.emplace(*simulation.events, system_, std::max(simulation.duration, simulation.whole_duration));
     trajectory_.nq = simulation.chain.nq;
     trajectory_.nv = simulation.chain.nv;
     if (constrained_) trajectory_.rows = constrained_->set().rows();

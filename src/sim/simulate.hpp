@@ -58,9 +58,6 @@ void apply(const MethodSetting& setting, Simulation& simulation);
 // Two instants closer than this are one, s.
 double same_instant(const Simulation& simulation);
 
-// Of a duration: what is no shorter than the part of a step that lies between two looks at the torques is seen. Shorter pulses
-// of t alone are sought (expr/pulses), shorter ones of the state are not.
-inline constexpr int kLeastWatchedSteps = 256;
 // The longest step, s, of a run whose method chooses its steps; 0: any. Where torques may change, events happen or limits be
 // passed, a part of the duration at most: a robot at rest or one that coasts lets a method take the whole run for a step,
 // and what comes on the way would never be felt.

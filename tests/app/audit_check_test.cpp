@@ -165,6 +165,14 @@ TEST(FilmOfToday, TellsTheCommandsThatMakeItAnew) {
   EXPECT_EQ(commands().status, 0) << commands().err;
   make(folder.file("wanted.mp4"));
   EXPECT_TRUE(read_whole_file(film) == read_whole_file(folder.file("wanted.mp4")));
+  // What was written beside a film of another name is told of by that one's audit.
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", folder.file("two/c.gif"), "-o", folder.file("two/poster.png")}).status, 0);
+  EXPECT_EQ(run_program({"check", folder.file("two/poster.png"), "--today"}).status, 0);
+  folder.write("it's a scene.yaml", page + "title: A third\n");
+  const std::string both = run_program({"check", folder.file("two"), "--today", "--commands"}).out;
+  EXPECT_THAT(both, testing::AllOf(HasSubstr("two/c.gif"), HasSubstr("two/poster.png")));
+  ASSERT_EQ(run_command({"sh", "-e", "-c", both}, shell).status, 0) << both;
+  EXPECT_EQ(run_program({"check", folder.file("two"), "--today", "--commands"}).status, 0);
   EXPECT_EQ(run_program({"check", film, "--commands"}).status, 2);
   EXPECT_EQ(run_program({"check", film, "--today", "--commands", "--json"}).status, 2);
 }

@@ -293,6 +293,18 @@ TEST(StabilityCommand, PutsTheBorderWhereTheTheoryHasIt) {
   EXPECT_THAT(result.out, HasSubstr("and at instants of the run")) << "the scene starts away from its spring's rest";
 }
 
+TEST(ChartCommand, PrintsTheCheapestOfTheErrorsThatAreAsked) {
+  const TemporaryFolder folder;
+  const auto chart = [&](const std::string& reach) {
+    return run_program({"chart", "pp_spring", "--set", "duration=0.5", "--methods", "rk4,dop853", "--longest", "5ms", "--runs", "1", "--reach", reach, "--force", "-o", folder.file("c.csv")});
+  };
+  const ProgramResult two = chart("1e-4, 2e-7");
+  ASSERT_EQ(two.status, 0) << two.err;
+  EXPECT_THAT(two.out, testing::ContainsRegex("to reach +1e-4.* 2e-7"));
+  EXPECT_THAT(two.out, testing::Not(HasSubstr("1e-9")));
+  for (const char* bad : {"-1", "0", "1e-4,,", "small", ""}) EXPECT_EQ(chart(bad).status, 2) << bad;
+}
+
 TEST(StabilityCommand, DrawsAMapOfEachMethodThatIsNamed) {
   const TemporaryFolder folder;
   const Words map{"stability", "assets/scenes/pp_spring.yaml", "--set", "torque=[0, -k * y_G]", "--set", "parameters.k=100", "--x",

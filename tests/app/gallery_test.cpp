@@ -116,24 +116,29 @@ TEST(Gallery, ShowsPicturesBelowItsFilms) {
   };
   ellipse("figure.png", "Heavy <along> the arm");
   ellipse("figure_2.svg", "A drawing");
+  ellipse("figure.svg", "The same in another form");
+  ellipse("a_still.png", "Named like the film, of its own");
   ellipse("paper.pdf", "Of paper alone");
   ellipse("a_chart.png", "It goes with the film");
   folder.write("photo.png", std::string(read_whole_file(folder.file("figure.png"))).substr(0, 100));  // remembers nothing
   const ProgramResult result = gallery(folder, {"--json"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(Json::parse(result.out)["pictures"], 2);
+  EXPECT_EQ(Json::parse(result.out)["pictures"], 3);
   EXPECT_THAT(result.err, testing::AllOf(HasSubstr("paper.pdf"), HasSubstr("show .png and .svg")));
   const std::string text = page(folder), section = text.substr(text.find("<section class=\"pictures\""));
   EXPECT_THAT(section, HasSubstr("data:image/png;base64," + base64(read_whole_file(folder.file("figure.png")))));
   EXPECT_THAT(section, HasSubstr("data:image/svg+xml;base64," + base64(read_whole_file(folder.file("figure_2.svg")))));
   EXPECT_THAT(section, HasSubstr("Heavy &lt;along&gt; the arm"));
   EXPECT_THAT(section, Not(HasSubstr("It goes with the film")));
-  EXPECT_THAT(text, HasSubstr("One film, 0.2 s long, and 2 pictures."));
+  EXPECT_THAT(section, HasSubstr("of its own"));
+  EXPECT_THAT(section, Not(HasSubstr("The same in another form")));
+  EXPECT_THAT(text, HasSubstr("One film, 0.2 s long, and 3 pictures."));
   // Pictures alone are a page, too; another program's has its name; what is only named so is none.
   const std::string own = folder.file("own/index.html");
   ASSERT_EQ(run_program({"gallery", folder.file("figure.png"), "-o", own}).status, 0);
   EXPECT_THAT(read_whole_file(own), HasSubstr("<p>one picture.</p>"));
   EXPECT_EQ(run_program({"gallery", folder.write("b.svg", "no drawing"), "-o", own}).status, 3);
+  EXPECT_THAT(run_program({"gallery", folder.file("photo.png"), "-o", own}).err, HasSubstr("cannot be read as a picture"));
   EXPECT_THAT(run_program({"gallery", folder.file("paper.pdf"), "-o", own}).err, HasSubstr("pictures as .png and .svg"));
 }
 

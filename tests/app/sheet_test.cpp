@@ -144,6 +144,14 @@ TEST(Sheet, HasItsTitleFilledIn) {
   EXPECT_FALSE(own == pixels({"--title", "A standing human falls in {fall}"}));
 }
 
+TEST(Sheet, RefusesATitleThatIsNoFormulaOrHasNoRoom) {
+  const TemporaryFolder folder;
+  const auto titled = [&](const std::string& title) { return run_program({"sheet", "rr_free", "--title", title, "--width-mm", "84", "--quiet", "--force", "-o", folder.file("a.pdf")}); };
+  EXPECT_EQ(titled("Six moments").status, 0);
+  EXPECT_NE(titled("$\\bad$").status, 0);
+  EXPECT_THAT(titled(std::string(500, 'W')).err, HasSubstr("a shorter --title"));
+}
+
 // On paper words are of a paper's size: more of them stand below a picture than on a slide.
 TEST(Sheet, OnPaperHasWordsOfAPaper) {
   const TemporaryFolder folder;

@@ -170,6 +170,32 @@ TEST(Linearise, TellsTheShortestLimitAlongARun) {
   EXPECT_EQ(by_text.most_evaluations, 0);
 }
 
+// What is stiff for a moment of a long run is looked at, too: an elastic stop, with and without an idle constraint.
+TEST(Linearise, SeesAStopThatARunTouches) {
+  for (const bool tied : {false, true})
+    for (const double duration : {3.0, 20.0}) {
+      Simulation run = weightless(run_of("pp", {"10000*max(-q1,0)", "0"}, duration));
+      run.q0 = {1, 0}, run.qd0 = {-1, 0};
+      if (tied) run.constraints.list.push_back(JointConstraint{run.chain.coordinate_names[1], 0});
+      const double mass = run.chain.bodies[1].inertia.mass + run.chain.bodies[2].inertia.mass;
+      const double omega = std::sqrt(10000 / mass);
+      EXPECT_NEAR(limit(run, "semi_implicit_euler"), 2 / omega, 1e-6) << tied << " " << duration;
+      EXPECT_NEAR(limit(run, "rk4"), 2 * std::sqrt(2) / omega, 1e-6) << tied << " " << duration;
+    }
+}
+
+// What holds constraints down has a rate of its own, which a step has to follow: rk4 breaks down behind 2.785 / gain.
+TEST(Linearise, KnowsTheRateOfBaumgarte) {
+  Simulation run = run_of("rr", {"0", "0"}, 1);
+  run.q0 = {-1, 0};
+  run.constraints.list.push_back(JointConstraint{run.chain.coordinate_names[1], 0});
+  run.constraints.stabilize = Stabilization::baumgarte;
+  run.constraints.gain = 100;
+  EXPECT_NEAR(limit(run, "rk4"), 2.785293563 / 100, 1e-5);
+  run.constraints.stabilize = Stabilization::project;
+  EXPECT_GT(limit(run, "rk4"), 0.5);
+}
+
 TEST(Linearise, FindsThePandasLimitUnderStiffFeedback) {
   const std::string robots = public_robots_folder();
   if (robots.empty()) GTEST_SKIP() << kNoRobots;

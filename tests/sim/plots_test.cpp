@@ -96,7 +96,7 @@ TEST(Plots, AreCutAtPoles) {
   run.chain.gravity.setZero();
   run.torque = make_torque_law(run.chain, {{"0", {}, {}}, {"0", {}, {}}}, {});
   run.qd0[0] = 1;
-  run.plots = make_plots(run.chain, {{"1 / (q1 - 0.503)", "", {}}, {"tan(3 * q1)", "", {}}, {"20 * (t > 0.5) - 10", "", {}}, {"exp(4 * q1) - exp(2 - 4 * q1)", "", {}}}, {}, {}, std::nullopt, 0);
+  run.plots = make_plots(run.chain, {{"1 / (q1 - 0.503)", "", {}}, {"tan(3 * q1)", "", {}}, {"20 * (t > 0.5) - 10", "", {}}, {"exp(4 * q1) - exp(2 - 4 * q1)", "", {}}, {"5 * t + 0.001 / (q1 - 1)", "", {}}, {"1 / (q1 - 1)^2", "", {}}}, {}, {}, std::nullopt, 0);
   std::vector<double> times;
   for (int k = 0; k <= 120; ++k) times.push_back(k / 60.0);
   const auto plots = plot_curves(run, simulate(run, times), int(times.size()));
@@ -104,6 +104,11 @@ TEST(Plots, AreCutAtPoles) {
     double highest = 0;
     int gaps = 0;
     for (const double y : plots[i].curves[0].y) std::isfinite(y) ? void(highest = std::max(highest, std::abs(y))) : void(++gaps);
+    if (i >= 4) {  // samples that fell on a pole, which no growth announces
+      EXPECT_LE(gaps, 2) << plots[i].title;
+      EXPECT_LT(highest, 4000) << plots[i].title;
+      continue;
+    }
     if (i >= 2) {
       EXPECT_EQ(gaps, 0) << plots[i].title;
       continue;

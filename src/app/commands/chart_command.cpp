@@ -36,6 +36,7 @@ struct ChartOptions {
   std::string longest = "100ms";
   std::string error = "final";  // or energy
   bool judges_energy() const { return error == "energy"; }
+  std::string reach = "1e-3,1e-6,1e-9";  // errors that the printed table is for
   int panel = 0;  // from 1; 0: the motion that all share
   FigureOptions figure;
   CommonOptions common;
@@ -175,19 +176,33 @@ const ChartPoint* cheapest(const ChartCurve& curve, double error) {
   return best;
 }
 
+std::vector<double> errors_to_reach(const std::string& text) {
+  std::vector<double> errors;
+  for (const std::string& part : separated(text, ',')) {
+    const std::optional<double> error = parse_number(trimmed(part));
+    if (!error || !(*error >= 1e-15 && *error <= 1e3))
+      throw Error(ExitCode::usage, "--reach " + text + ": takes errors between 1e-15 and 1e3, like 1e-4 or 1e-3,1e-5");
+    errors.push_back(*error);
+  }
+  if (errors.empty()) throw Error(ExitCode::usage, "--reach takes errors, like 1e-4 or 1e-3,1e-5");
+  return errors;
+}
+
 void print_summary(const WorkPrecision& data, const Measured& measured, const ChartOptions& options) {
   const std::string unit = data.error_title.substr(std::min(data.error_title.find(" ["), data.error_title.size()));
-  std::vector<std::vector<std::string>> table{{"ms a run, to reach", "1e-3" + unit, "1e-6", "1e-9"}};
+  std::vector<std::vector<std::string>> table{{"ms a run, to reach"}};
+  const std::vector<double> reach = errors_to_reach(options.reach);
+  for (const std::string& error : separated(options.reach, ',')) table.front().push_back(trimmed(error) + (table.front().size() == 1 ? unit : ""));
   for (const ChartCurve& curve : data.curves) {
     std::vector<std::string> row{curve.method};
-    for (const double error : {1e-3, 1e-6, 1e-9}) {
+    for (const double error : reach) {
       const ChartPoint* const point = cheapest(curve, error);
       row.push_back(error < data.least_error() ? "unknown" : point ? format_significant(1000 * point->seconds, 3) + ", " + setting_of(point->label) : "-");
     }
     table.push_back(row);
   }
   std::fputs(table_text(table).c_str(), stdout);
-  if (data.least_error() > 1e-9)
+  if (data.least_error() > *std::ranges::min_element(reach))
     std::printf("unknown: below %s, %s, errors say nothing of a method\n", format_significant(data.least_error(), 2).c_str(),
                 data.is_least_of_reference() ? "to which the reference is known" : "to which the motion magnifies one rounding");
   for (const Ladder& ladder : measured.ladders)
@@ -253,6 +268,7 @@ std::vector<std::string> highlighted(const ChartOptions& options, const std::vec
 
 void run_chart(const ChartOptions& options) {
   check_figure_size(options.figure);
+  errors_to_reach(options.reach);  // before anything is measured
   const std::vector<const Method*> chosen = parse_methods(options.methods);
   const std::vector<std::string> lit = highlighted(options, chosen);
   PreparedScene prepared = load_motion(options.scene, overrides_of(options.common), options.panel, options.common.quiet);
@@ -284,6 +300,7 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene)");
   command->add_option("--highlight", options->highlight,
                       "taylor,rk4: these in colour, the rest grey (default the cheapest at some error, and auto's)");
+  command->add_option("--reach", options->reach, "1e-4,..: errors that the printed table is for (default 1e-3,1e-6,1e-9)");
   command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
   command->add_option("--longest", options->longest, "finer rungs whose runs would take longer by the table of costs are left out; one may take twice as long: 100ms")
       .show_default();

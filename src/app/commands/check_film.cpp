@@ -153,14 +153,32 @@ struct OwnAudit {
   std::string folder;        // of the audit
 };
 
+// The audit that tells of a file: beside it, or that of another file of its folder which was written with it; "" where none does.
+std::string audit_telling_of(const std::string& path) {
+  const fs::path file(path);
+  std::error_code code;
+  if (const std::string usual = audit_path_of(path); fs::is_regular_file(usual, code)) return path;
+  std::vector<std::string> telling;
+  for (fs::directory_iterator entry(file.has_parent_path() ? file.parent_path() : ".", code), end; !code && entry != end; entry.increment(code)) {
+    if (lower_case_ending(entry->path().string()) != ".json") continue;
+    const Json audit = audit_beside(entry->path().string());
+    if (!audit.is_object() || !audit.contains(kAuditedFiles) || !audit[kAuditedFiles].is_array()) continue;
+    for (const Json& one : audit[kAuditedFiles])
+      if (word_of(one, "file") == file.filename().string()) telling.push_back(entry->path().string());
+  }
+  return telling.size() == 1 ? telling.front() : "";
+}
+
 OwnAudit own_audit(const std::string& path) {
   try {
-    const AuditCheck check = check_audit(path);
+    const std::string telling = audit_telling_of(path);
+    if (telling.empty()) return {};
+    const AuditCheck check = check_audit(telling);
     const auto own = std::find_if(check.files.begin(), check.files.end(), [&](const AuditCheck::File& file) {
       return fs::path(file.path).filename() == fs::path(path).filename();
     });
     if (own == check.files.end()) return {};
-    return {audit_beside(path), own->state != AuditedState::as_written || !check.contradicted.empty(), fs::path(check.audit).parent_path().string()};
+    return {audit_beside(telling), own->state != AuditedState::as_written || !check.contradicted.empty(), fs::path(check.audit).parent_path().string()};
   } catch (const Error&) {
     return {};
   }

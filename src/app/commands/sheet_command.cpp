@@ -22,6 +22,7 @@
 #include "core/error.hpp"
 #include "draw/figures/contact_sheet.hpp"
 #include "draw/page/sheet.hpp"
+#include "picture/formula_words.hpp"
 #include "scene/run/title.hpp"
 #include "scene/text/asked_instant.hpp"
 
@@ -181,8 +182,8 @@ std::vector<ContactCell> cells_of(const SheetOptions& options, Page& page, Json&
 }
 
 // It shows no scene of its own but many: the command is remembered.
-ClipMemory memory_of_sheet(const Command& command, const std::vector<ContactCell>& cells) {
-  ClipMemory memory = memory_of_figure(command, "Contact sheet");
+ClipMemory memory_of_sheet(const Command& command, const std::string& title, const std::vector<ContactCell>& cells) {
+  ClipMemory memory = memory_of_figure(command, title.empty() ? "Contact sheet" : title);
   for (const ContactCell& cell : cells)
     memory.description += (memory.description.empty() ? "" : "; ") + cell.title;
   return memory;
@@ -203,6 +204,7 @@ void refuse_own_keys(const std::vector<std::string>& set) {
 
 void run_sheet(const SheetOptions& options) {
   refuse_own_keys(options.common.set);
+  require_formulas(options.title, true);
   const std::vector<std::string> outputs = options.outputs.empty() ? std::vector<std::string>{"out/sheet.png"} : options.outputs;
   for (const std::string& output : outputs) picture_format_of(output);
   refuse_twice(outputs);
@@ -219,7 +221,7 @@ void run_sheet(const SheetOptions& options) {
   Json told = Json::array();
   const std::vector<ContactCell> cells = cells_of(options, page, told);
   const Picture sheet = draw_contact_sheet(page.grid, cells, page.look);
-  ClipMemory memory = memory_of_sheet(*options.command, cells);
+  ClipMemory memory = memory_of_sheet(*options.command, page.look.title, cells);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   for (const std::string& output : outputs) write_picture(sheet, size.width, size.height, fonts, output, options.common.force, memory);
   tell_files(options.common, outputs, [&] { return Json{{"columns", page.grid.columns}, {"lines", page.grid.lines}, {"cells", told}}; });

@@ -26,7 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kPosterWidth = 960;  // pixels
-constexpr std::uintmax_t kLargestClip = 300'000'000;  // bytes; as text a third more, and browsers hold 512 MiB of it
 constexpr double kTellingShare = 0.4;  // of a film without events: its poster
 
 struct ChartKind {
@@ -191,6 +190,10 @@ FilmClock clock_of(const Json& audit, double end) {
 }
 
 }  // namespace
+
+bool is_chart_name(const std::string& name) {
+  return kind_of(name) != nullptr;
+}
 
 std::string played_endings(const std::string& last_word) {
   return endings_of([](const OutputFormat& row) { return row.shows == Shows::motion && *row.browser_type != 0; }, last_word);

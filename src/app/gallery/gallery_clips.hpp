@@ -1,6 +1,7 @@
 // What a gallery shows of each film: the film itself, and what it and the files beside it say of it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,10 @@
 #include "encode/film_start.hpp"
 
 namespace chainreel {
+
+// Films lie in the page as data: URLs, whose length browsers limit, each in its own way; as text they are a third longer, and browsers
+// hold 512 MiB of it. Bytes of one that is told of, and of one that is refused.
+inline constexpr std::uintmax_t kLongClip = 20'000'000, kLargestClip = 300'000'000;
 
 struct GalleryChart {
   std::string path;
@@ -26,6 +31,9 @@ struct GalleryClip {
   Json audit;  // null where there is none
   std::vector<GalleryChart> charts;
 };
+
+// Whether a file of this name is a chart of a film whose name it begins with: pen_chart.png.
+bool is_chart_name(const std::string& name);
 
 // ".mp4, .webm, .gif and .apng": films that browsers play.
 std::string played_endings(const std::string& last_word);

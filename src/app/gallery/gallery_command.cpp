@@ -23,13 +23,10 @@ struct GalleryOptions {
   CommonOptions common;
 };
 
-// Films lie in the page as data: URLs, whose length browsers limit, each in its own way.
-constexpr double kLongFilm = 20e6;  // bytes
-
 void tell_of_long_films(const std::vector<GalleryClip>& clips) {
   for (const GalleryClip& clip : clips) {
     const double bytes = double(std::filesystem::file_size(clip.path));
-    if (bytes <= kLongFilm) continue;
+    if (bytes <= double(kLongClip)) continue;
     std::fprintf(stderr,
                  "%s: has %.0f MB; some browsers do not play so long a film out of a page: render it with a "
                  "smaller video.width or a higher video.crf\n",

@@ -7,9 +7,11 @@
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
+#include "app/gallery/gallery_clips.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
+#include "encode/png.hpp"
 #include "picture/formula_words.hpp"
 
 namespace chainreel {
@@ -36,11 +38,11 @@ std::vector<std::string> films_of(const fs::path& folder) {
   return stems;
 }
 
-// pen.png, pen_chart.png and pen.poster.png go with pen.mp4.
+// pen.png, pen_chart.png and pen.poster.png go with pen.mp4, and so does pen.svg; pen_still.svg is a picture of its own.
 bool goes_with(const fs::path& picture, const std::vector<std::string>& films) {
   const std::string stem = picture.stem().string();
   return std::any_of(films.begin(), films.end(), [&](const std::string& film) {
-    return stem == film || stem.starts_with(film + "_") || stem.starts_with(film + ".");
+    return stem == film || stem.starts_with(film + ".") || (is_chart_name(picture.filename().string()) && stem.starts_with(film + "_"));
   });
 }
 
@@ -51,6 +53,17 @@ bool is_what_its_name_says(const std::string& path, const std::string& type) {
   stream.read(start.data(), std::streamsize(start.size()));
   start.resize(std::size_t(std::max<std::streamsize>(stream.gcount(), 0)));
   return type == "image/png" ? start.starts_with("\x89PNG\r\n\x1a\n") : start.find("<svg") != std::string::npos;
+}
+
+// What keeps its pixels from being read; "" of a drawing, which a browser reads as far as it goes.
+std::string trouble_of(const std::string& path, const std::string& type) {
+  if (type != "image/png") return "";
+  try {
+    read_png(path);
+    return "";
+  } catch (const Error& error) {
+    return error.problems().front().message;
+  }
 }
 
 std::string title_of(const std::string& path) {
@@ -84,7 +97,9 @@ std::vector<std::string> pictures_in(const std::string& folder, std::vector<std:
     std::error_code code;
     if (!entry.is_regular_file(code) || goes_with(entry.path(), films)) continue;
     if (!picture_type_of(path).empty()) {
-      if (remembers(path)) found.push_back(path);
+      // The same picture once.
+      const bool is_other_form = lower_case_ending(path) != kKinds[0][0] && fs::exists(fs::path(path).replace_extension(kKinds[0][0]), code);
+      if (!is_other_form && remembers(path)) found.push_back(path);
       continue;
     }
     const OutputFormat* format = find_output_format(path);
@@ -108,6 +123,8 @@ std::vector<GalleryPicture> read_pictures(const std::vector<std::string>& paths)
       problems.push_back({"has more than " + std::to_string(kLargestPicture / 1'000'000) + " MB, too many for a picture in a page", {path}});
     else if (!is_what_its_name_says(path, type))
       problems.push_back({"is named " + lower_case_ending(path) + " but is no such picture", {path}});
+    else if (const std::string trouble = trouble_of(path, type); !trouble.empty())
+      problems.push_back({"cannot be read as a picture: " + trouble, {path}});
     else
       pictures.push_back({path, type, title_of(path)});
   }

@@ -28,7 +28,7 @@ std::string symbols_page() {
       {"`point`", "world x, y (z)", "towards +x, +y (+z)"},
       {"`distance`", "along the rod", "its ends apart: the rod is in tension"},
       {"`close`", "world x, y (z)", "`a` presses on `b`, or on the place, towards +x, +y (+z)"},
-      {"`close` with `axis` or `weld`", "besides, axes that stay parallel", "a moment about u x z, u an axis of `b` and z one of `a`"},
+      {"`close` with `axis` or `weld`", "besides, axes that stay parallel", "a moment about u x z, u an axis of `b` and z one of `a`, which are at right angles; the sign is told by a run"},
       {"`curve`", "the normal to the left of rising s", "along that normal"},
       {"`joint`", "the coordinate", "towards larger values"},
       {"`linear`", "the sum", "towards a larger sum"},
@@ -39,7 +39,7 @@ std::string symbols_page() {
          "\nA revolute joint is positive by the right hand about its axis, counter-clockwise in pictures whose axis points at the viewer; a slider\n"
          "along its axis. Worlds of planar scenes: x right, y up, z to the viewer. SI units and radians throughout; degrees are for scene files and labels.\n\n"
          "## Signs of lambda\n\n"
-         "`dynamics SCENE --at 1.5` prints `lambda` and `contact_forces`, which is the same force as a vector: what the robot exerts on its tie. Arrows of the\n"
+         "`dynamics SCENE --at 1.5` prints `lambda` and, of constraints on places, `contact_forces`, the same force as a vector: what the robot exerts on its tie. Arrows of the\n"
          "layer `constraint_force` act on the robot, and point the other way.\n\n" +
          markdown_table(rows) +
          "\nHow far constraints are missed in a run is told by `simulate --json` as constraint_error, by the columns `constraint_error` of a table, and by `plot:\n"

@@ -17,6 +17,7 @@
 namespace chainreel {
 namespace {
 
+const std::string kNoTorques = "no torques";
 constexpr double kCaptionSeconds = 2;  // at most; the next event ends it
 constexpr double kLeastCaption = 0.5;  // s that words stand, so that they can be read, beside those that come meanwhile
 constexpr double kSameInstant = 0.05;  // s of the film: what comes so close together comes at once
@@ -61,7 +62,7 @@ std::string torque_words(const Scene& scene) {
     text += (text.empty() ? "" : ", ") + (entry.control ? "a control" : entry.text);
     acts = acts || entry.control || entry.text != "0";
   }
-  return acts ? "torques (" + text + ")" : "no torques";
+  return acts ? "torques (" + text + ")" : kNoTorques;
 }
 
 // ", pushed by 60 N at trunk from 0.5 s to 0.6 s": what acts of each push, as its arrow shows it.
@@ -91,7 +92,7 @@ std::string payload_words(const Scene& scene) {
   return ", with a load of " + format_significant(scene.payload.mass, 4) + " kg at " + link;
 }
 
-// ", tied by a line, which leaves 1": each constraint by the name that it goes by elsewhere.
+// ", of which it keeps 1, tied by a line,": each constraint by the name that it goes by elsewhere.
 std::string tie_words(const PreparedScene& panel, const Trajectory& run) {
   const ConstraintPlan& plan = panel.simulation.constraints;
   std::vector<std::string> names;
@@ -104,7 +105,7 @@ std::string tie_words(const PreparedScene& panel, const Trajectory& run) {
   int freed = chain.nv;
   for (const int k : {0, run.size() / 2, run.size() - 1})
     if (k >= 0 && k < run.size()) freed = std::min(freed, int(free_directions(chain, ws, set, run.q_at(k)).cols()));
-  return ", tied by " + joined(names) + ", which leaves " + (freed == 0 ? "none" : std::to_string(freed));
+  return ", of which it keeps " + (freed == 0 ? "none" : std::to_string(freed)) + ", tied by " + joined(names) + ",";
 }
 
 std::string resistance_words(const Chain& chain) {
@@ -126,7 +127,7 @@ std::string motion_words(const PreparedScene& panel, const Trajectory& run) {
          (chain.gravity.norm() > 0
               ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
               : "no gravity and ") +
-         torque_words(scene) + press_words(panel) + push_words(panel) + payload_words(scene) +
+         (panel.simulation.constraints.contact_forces.empty() || torque_words(scene) != kNoTorques ? torque_words(scene) : std::string("torques that press alone")) + press_words(panel) + push_words(panel) + payload_words(scene) +
          resistance_words(chain) + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
          " from q = " + vector_text(scene.start.q);
 }

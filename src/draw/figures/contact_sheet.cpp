@@ -57,6 +57,8 @@ PageTitle page_title(const ContactSheetLook& look) {
     }
     title.lines.push_back(line_of(words));
     const bool fits = is_narrow && int(title.lines.size()) <= kMostTitleLines;
+    if (look.is_paper() && title.size < look.least_text)
+      throw Error(ExitCode::usage, "the title has no room above the page where it can be read: take a shorter --title, or a wider page");
     if (fits || title.size < kNoWords) return title;  // on a page of next to no width nothing fits
   }
 }

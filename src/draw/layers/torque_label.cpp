@@ -106,10 +106,6 @@ struct Order {
 Order order_of(const std::string& condition) {
   const std::size_t at = condition.find_first_of("<>");
   const std::size_t behind = at + (condition.compare(at + 1, 1, "=") == 0 ? 2 : 1);
-  const auto trimmed = [](const std::string& text) {
-    const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
-    return begin == std::string::npos ? std::string() : text.substr(begin, end - begin + 1);
-  };
   Order order{trimmed(condition.substr(0, at)), condition.substr(at, behind - at), trimmed(condition.substr(behind))};
   if (order.sign.front() == '>') {
     std::swap(order.smaller, order.larger);

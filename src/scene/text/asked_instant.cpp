@@ -11,11 +11,6 @@ namespace {
 constexpr std::string_view kEvent = "event";
 constexpr const char* kForms = "write seconds, like 1.2s, or `event NAME`";
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, last + 1 - first);
-}
-
 bool is_event(const std::string& text) {
   return text == kEvent || text.starts_with(std::string(kEvent) + " ");
 }

@@ -18,11 +18,12 @@ Event::Test test_of(const Expression& when, const EventEntry& entry) {
     throw Error(ExitCode::bad_input, "the event `" + entry.when + "` " + why, entry.place);
   };
   if (when.used_variables().empty()) return refuse("reads nothing that changes, so it can never happen");
-  if (!comparison && when.compares_inside())
+  const bool has_both_signs = values_of(when.difference().program()).has_both_signs();
+  if (!comparison && when.compares_inside() && !has_both_signs)
     return refuse(
         "is 1 or 0 and never crosses zero: write `min(q1 > 1, t > 2) > 0` for both, max for one of them");
   // What only touches zero is found at no look: |x| - 0, (x - 1)^2, sin(x) - 1. Conditions of conditions are 0 for a while.
-  if (!when.compares_inside() && !values_of(when.difference().program()).has_both_signs())
+  if (!when.compares_inside() && !has_both_signs)
     return refuse("is never on both sides of zero, so that it can touch it at most, which no look at a run finds: name what passes zero, as "
                   "`q1 + pi/2` for `abs(q1 + pi/2)`, or a bound that it passes, `abs(q1) < 0.1`");
   if (comparison && *comparison != Operation::equal && entry.direction != Crossing::either)
@@ -149,6 +150,7 @@ GroundLoad ground_load(ChainSystem& system, Workspace& ws, const GroundAxes& axe
 
 namespace {
 
+constexpr int kMostLooks = kLeastWatchedSteps * 8;  // at a step
 constexpr std::size_t kUsualHits = 64;  // room for as many is made before the run
 
 int sign_of(double x) {
@@ -173,9 +175,10 @@ bool holds(Event::Test test, double value) {
 
 }  // namespace
 
-EventWatch::EventWatch(const EventSet& events, ChainSystem& system)
+EventWatch::EventWatch(const EventSet& events, ChainSystem& system, double duration)
     : events_(events),
       system_(system),
+      longest_part_(duration / (kLeastWatchedSteps * kLooksPerStep)),
       ws_(system.chain()),
       probe_(events.probe),
       before_(events.list.size()),
@@ -266,9 +269,12 @@ void EventWatch::record(Integrator& integrator, const Pending& hit, EventHits& h
 
 bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
   const double begin = integrator.begin_time(), end = integrator.time();
-  const auto instant = [&](int look) { return begin + (end - begin) * look / kLooksPerStep; };
-  for (int look = 1; look <= kLooksPerStep; ++look) {
-    const bool last = look == kLooksPerStep;
+  // Of steps that are longer than those of methods that choose them more.
+  const double parts = longest_part_ > 0 ? std::ceil((end - begin) / longest_part_ * (1 - 1e-9)) : 0;
+  const int looks = int(std::clamp(parts, double(kLooksPerStep), double(kMostLooks)));
+  const auto instant = [&](int look) { return begin + (end - begin) * look / looks; };
+  for (int look = 1; look <= looks; ++look) {
+    const bool last = look == looks;
     const double t = last ? end : instant(look);
     if (!last) integrator.interpolate(t, q_, qd_);
     if (!(last ? read(t, integrator.q(), integrator.v()) : read(t, q_, qd_))) return false;

@@ -6,7 +6,7 @@
 // the
 //               same. With a direction: when it has risen to zero, or fallen to it.
 //
-// Each step is looked at in kLooksPerStep equal parts. An event is found where the expression differs between
+// Each step is looked at in kLooksPerStep equal parts, a long one in more: none is longer than such a part of a step of 1/256 of the run. An event is found where the expression differs between
 // the ends of a part; one that comes and goes within a part is not seen. Jumps are located like crossings;
 // poles, where an expression changes its sign and is never zero, are none. The instant is exact to kInstantTolerance on the dense output, whose own error is the
 // method's: see Method::dense_order.
@@ -74,6 +74,10 @@ struct GroundSlots {
   void set(Probe& probe, const GroundLoad& load) const;
 };
 
+// Of a duration: what is no shorter than the part of a step that lies between two looks at the torques is seen. Shorter pulses
+// of t alone are sought (expr/pulses), shorter ones of the state are not.
+inline constexpr int kLeastWatchedSteps = 256;
+
 inline constexpr int kLooksPerStep = 8;
 
 enum class EventKind {
@@ -132,7 +136,7 @@ std::shared_ptr<const EventSet> make_events(const Chain& chain, const std::vecto
 class EventWatch {
  public:
   // References must outlive it.
-  EventWatch(const EventSet& events, ChainSystem& system);
+  EventWatch(const EventSet& events, ChainSystem& system, double duration);
 
   // Where the run begins: what holds here does not happen until it has been false, and `hits` says so. False where an event's
   // value is no finite number, here and in check_step.
@@ -166,6 +170,7 @@ class EventWatch {
 
   const EventSet& events_;
   ChainSystem& system_;
+  double longest_part_;  // s, between two looks
   Workspace ws_;
   Probe probe_;
   std::vector<State> before_;

@@ -103,9 +103,10 @@ TEST(Events, TwoInOneStepAreBothFoundWhereTheyLieInDifferentParts) {
 }
 
 TEST(Events, WhatComesAndGoesWithinAPartIsNotSeen) {
-  // 0.2035 m is passed for 17 ms about the top: less than an eighth of 0.5 s, more than an eighth of 0.1 s.
-  EXPECT_EQ(times_of(thrown(2, 0.5, {event("q2 - 0.2035")})).size(), 0u);
-  EXPECT_EQ(times_of(thrown(2, 0.1, {event("q2 - 0.2035")})).size(), 2u);
+  // 0.2038735 m is passed for 0.3 ms about the top, at 417.5 parts of 1/2048 s: as long as no look is nearer than that.
+  EXPECT_EQ(times_of(thrown(2, 0.5, {event("q2 - 0.2038735")})).size(), 0u);
+  EXPECT_EQ(times_of(thrown(2, 0.002, {event("q2 - 0.2038735")})).size(), 2u) << "an eighth of 2 ms";
+  EXPECT_EQ(times_of(thrown(2, 0.5, {event("q2 - 0.2035")})).size(), 2u) << "17 ms, in a step of half the run";
 }
 
 TEST(Events, AtOneInstantComeInTheOrderOfTheScene) {
@@ -220,6 +221,17 @@ TEST(Events, PolesAreNoZerosWhereverStepsEnd) {
   EXPECT_NEAR(trajectory.end_time, 0.355, 0.01) << "2000 t = 709.8";
 }
 
+// Steps as long as a method that needs no short ones takes them: looks are no farther apart for that.
+TEST(Events, AreFoundInLongSteps) {
+  Simulation run = run_of("pp", {"0", "0"}, 3, "explicit_euler", 0.2);
+  run.qd0[0] = 1;
+  run.q0[0] = -1;
+  run.chain.gravity.setZero();
+  run.torque = make_torque_law(run.chain, {{"0", {}, {}}, {"0", {}, {}}}, {});
+  look_for(run, {event("sin(200 * q1)")});
+  EXPECT_EQ(simulate(run, instants(3, 0.2)).events.size(), 191);
+}
+
 // No look at a run would find it: that is said, and never that it does not happen.
 TEST(Events, ThatOnlyTouchZeroAreRefused) {
   Simulation run = run_of("pp", {"0", "0"}, 1);
@@ -231,7 +243,7 @@ TEST(Events, ThatOnlyTouchZeroAreRefused) {
       EXPECT_THAT(std::string(error.what()), HasSubstr("is never on both sides of zero")) << touches;
     }
   }
-  for (const char* passes : {"abs(q1) - 0.1", "abs(q1) < 0.1", "min(q1 > 1, t > 2) > 0", "q1^3", "q1 * abs(q1)", "max(q1, q2)", "sin(q1)", "log(q1)", "q1^2 - q2^2", "sqrt(q1) > 1"})
+  for (const char* passes : {"abs(q1) - 0.1", "abs(q1) < 0.1", "min(q1 > 1, t > 2) > 0", "q1^3", "q1 * abs(q1)", "max(q1, q2)", "sin(q1)", "log(q1)", "q1^2 - q2^2", "sqrt(q1) > 1", "(q1 - 0.5) * (1 + (q1 > 0))", "2 * (q1 > 0.5) - 1"})
     EXPECT_NO_THROW(look_for(run, {event(passes)})) << passes;
 }
 
