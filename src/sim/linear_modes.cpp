@@ -174,6 +174,7 @@ LinearMotion free_motion(ChainSystem& system, const Simulation& simulation, cons
 // if it stood still there: what they bend of a motion is no part of it.
 std::vector<LinearMotion> motions_along(ChainSystem& system, Simulation& simulation) {
   constexpr std::size_t kStiffest = 12, kOthers = 20;
+  constexpr double kSame = 1e-7;  // what differences leave of slopes
   struct Seen {
     double stiffness;
     LinearMotion motion;
@@ -190,15 +191,20 @@ std::vector<LinearMotion> motions_along(ChainSystem& system, Simulation& simulat
   const std::vector<State> states = states_along(simulation);
   simulation.torque->leave_pieces();
   for (const State& place : states) add(place);
+  // Where nothing bends, as of a slider on a spring, all are one.
   std::vector<LinearMotion> motions;
-  for (std::size_t k = 0; k < kOthers && !seen.empty(); ++k) motions.push_back(seen[k * (seen.size() - 1) / (kOthers - 1)].motion);
+  const auto keep = [&](const LinearMotion& motion) {
+    const auto is_same = [&](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a.rows() == b.rows() && (a - b).cwiseAbs().maxCoeff() <= kSame * a.cwiseAbs().maxCoeff(); };
+    if (std::ranges::none_of(motions, [&](const LinearMotion& one) { return is_same(one.K, motion.K) && is_same(one.D, motion.D); })) motions.push_back(motion);
+  };
+  for (std::size_t k = 0; k < kOthers && !seen.empty(); ++k) keep(seen[k * (seen.size() - 1) / (kOthers - 1)].motion);
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.stiffness > b.stiffness; });
-  for (std::size_t k = 0; k < std::min(kStiffest, seen.size()); ++k) motions.push_back(seen[k].motion);
+  for (std::size_t k = 0; k < std::min(kStiffest, seen.size()); ++k) keep(seen[k].motion);
   seen.clear();
   if (!system.constrained())
     for (const std::vector<double>& guess : {simulation.q0, states.empty() ? simulation.q0 : states.back().q})
       if (const std::optional<State> rest = equilibrium_from(system, simulation, guess)) add(*rest);
-  for (const Seen& one : seen) motions.push_back(one.motion);
+  for (const Seen& one : seen) keep(one.motion);
   return motions;
 }
 
