@@ -239,14 +239,12 @@ Linearisation linearise(const Simulation& simulation) {
     start.trouble = "accelerations about the start are not finite";
     return start;
   }
-  const Eigen::Index n = simulation.chain.nv;
-  const Eigen::MatrixXd T = system.constrained() ? free_directions(simulation.chain, system.workspace(), system.constrained()->set(), simulation.q0)
-                                                 : Eigen::MatrixXd::Identity(n, n);
-  if (T.cols() == 0) {
+  LinearMotion motion = free_motion(system, simulation, slopes, simulation.q0);
+  if (motion.n() == 0) {
     start.trouble = "constraints leave nothing free";
     return start;
   }
-  start.motion = without_noise({product(T.transpose(), product(slopes.K, T)), product(T.transpose(), product(slopes.D, T))});
+  start.motion = std::move(motion);
   start.rates = rates_of(*start.motion);
   if (start.rates.empty()) start.trouble = "nothing swings or decays about the start";
   start.is_equilibrium = start.rate == 0 && is_rest(qdd, slopes);

@@ -223,12 +223,6 @@ std::vector<std::string> remaking_command(const Today& today, const ClipMemory& 
   return words;
 }
 
-std::string shell_text(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_word(word);
-  return text;
-}
-
 Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const auto& [path, audit] = asked;
   const ClipMemory remembered = recall(path);
@@ -311,6 +305,11 @@ void print_today(const Today& one) {
   if (!one.is_same() && !one.knows_set) std::printf("  what --set changed when it was made is not known, as no audit lies beside it: give it again\n");
 }
 
+// For a shell nothing else is told: what is as it should be has no line.
+void print_command(const Today& one) {
+  if (!one.is_same() && !one.command.empty()) std::printf("%s\n", shell_line(one.command).c_str());
+}
+
 Json report_of(const Today& one) {
   return {{"file", one.path}, {"scene", one.scene}, {"set", one.set}, {"command", one.command}, {"is_same", one.is_same()}, {"changed", one.words}, {"audit_changed", one.facts},
           {"has_other_versions", one.has_other_versions}, {"trouble", one.trouble ? Json(one.trouble->problems().front().message) : Json(nullptr)}};
@@ -348,18 +347,12 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
       all.push_back({.path = film.path, .scene = scene, .trouble = error});
     }
   }
-  // For a shell nothing else is told: what is as it should be has no line.
-  const auto print_commands = [&] {
-    for (const Today& one : all)
-      if (!one.is_same() && !one.command.empty()) std::printf("%s\n", shell_text(one.command).c_str());
-  };
-  if (as_commands) print_commands();
-  else tell_result(common, [&] {
+  tell_result(common, [&] {
     Json films = Json::array();
     for (const Today& one : all) films.push_back(report_of(one));
     return Json{{"films", films}, {"passed_over", asked.passed_over}};
   }, [&] {
-    for (const Today& one : all) print_today(one);
+    for (const Today& one : all) as_commands ? print_command(one) : print_today(one);
   });
   std::vector<Problem> troubles, changed;
   for (const Today& one : all) {
@@ -373,7 +366,7 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
         troubles.push_back(std::move(problem));
       }
     else if (!one.is_same())
-      changed.push_back({"is not what " + one.scene + " shows today: render it again" + (one.command.empty() ? "" : ", `" + shell_text(one.command) + "`"), {one.path}});
+      changed.push_back({"is not what " + one.scene + " shows today: render it again" + (one.command.empty() ? "" : ", `" + shell_line(one.command) + "`"), {one.path}});
   }
   const bool is_told = troubles.empty();
   std::ranges::move(changed, std::back_inserter(troubles));

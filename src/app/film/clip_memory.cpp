@@ -192,11 +192,9 @@ ClipMemory recall(const std::string& path) {
 }
 
 std::string command_line(const Json& figure) {
-  std::string line = "chainreel";
-  for (const Json& word : figure.at("arguments")) {
-    line += " " + shell_word(word.is_string() ? word.get<std::string>() : word.dump());
-  }
-  return line;
+  std::vector<std::string> words{"chainreel"};
+  for (const Json& word : figure.at("arguments")) words.push_back(word.is_string() ? word.get<std::string>() : word.dump());
+  return shell_line(words);
 }
 
 }  // namespace chainreel

@@ -35,7 +35,7 @@ struct OutputFormat {
   bool has_pixels = true;             // of what is shown
   bool keeps_opacity = true;          // of a transparent page
   std::optional<VideoCodec> codec{};  // of films, whose size and quality it limits
-  const char* browser_type = "";      // "video/mp4", "image/gif" where browsers play it
+  const char* browser_type = "";      // "video/mp4", "image/png" where browsers play or show it
 
   // Of small clips: what takes the frames of a motion, in their order. Size, rate, opacity and tags are the settings'. Films
   // are made of chunks, see encode/film_chunk; sequences are pictures one by one.

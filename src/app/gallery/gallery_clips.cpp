@@ -40,7 +40,7 @@ constexpr std::array<std::string_view, 4> kBestFirst = {".mp4", ".webm", ".apng"
 
 // "video/mp4", or "" of what browsers do not play.
 std::string browser_type_of(const fs::path& path) {
-  const OutputFormat* format = find_output_format(path.string());
+  const OutputFormat* format = find_output_format(path.string(), Shows::motion);
   return format ? format->browser_type : "";
 }
 
@@ -230,8 +230,7 @@ FoundClips find_clips(const std::vector<std::string>& paths) {
     if (fs::is_directory(path, code)) {
       add_films_in(path, found);
       std::ranges::move(pictures_in(path, found.left_out), std::back_inserter(found.pictures));
-    }
-    else if (!fs::is_regular_file(path, code))
+    } else if (!fs::is_regular_file(path, code))
       problems.add("there is no such file or folder", {path});
     else if (!picture_type_of(path).empty())
       found.pictures.push_back(path);

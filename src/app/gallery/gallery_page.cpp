@@ -36,17 +36,21 @@ Filler audit_of(const Json& audit) {
                                                           {"json", plain(audit.dump(2))}}));
 }
 
+void write_figure(std::ostream& stream, const std::string& title, const std::string& type, const std::string& path) {
+  fill_page(stream, embedded_page("chart.html"),
+            {{"title", plain(title)},
+             {"type", plain(type)},
+             {"file", plain(std::filesystem::path(path).filename().string())},
+             {"picture", file_in_base64(path)}});
+}
+
 // The pictures are read when it is their turn.
 Filler charts_of(const std::vector<GalleryChart>& charts) {
   if (charts.empty()) return markup("");
   return [&charts](std::ostream& stream) {
     const Filler figures = [&charts](std::ostream& out) {
       for (const GalleryChart& chart : charts)
-        fill_page(out, embedded_page("chart.html"),
-                  {{"title", plain(chart.title)},
-                   {"type", plain("image/png")},
-                   {"file", plain(std::filesystem::path(chart.path).filename().string())},
-                   {"picture", file_in_base64(chart.path)}});
+        write_figure(out, chart.title, "image/png", chart.path);
     };
     const std::string count = charts.size() == 1 ? "Chart" : std::to_string(charts.size()) + " charts";
     fill_page(stream, embedded_page("charts.html"), {{"summary", plain(count)}, {"figures", figures}});
@@ -95,11 +99,7 @@ Filler section_of(const std::vector<GalleryPicture>& pictures) {
     const Filler figures = [&pictures](std::ostream& out) {
       for (const GalleryPicture& one : pictures) {
         throw_if_interrupted();
-        fill_page(out, embedded_page("chart.html"),
-                  {{"title", plain(one.title)},
-                   {"type", plain(one.type)},
-                   {"file", plain(std::filesystem::path(one.path).filename().string())},
-                   {"picture", file_in_base64(one.path)}});
+        write_figure(out, one.title, one.type, one.path);
       }
     };
     fill_page(stream, embedded_page("pictures.html"), {{"figures", figures}});

@@ -19,8 +19,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kKinds[][2] = {{".png", "image/png"}, {".svg", "image/svg+xml"}};
 constexpr std::uintmax_t kLargestPicture = 50'000'000;  // bytes
+
+bool is_shown(const OutputFormat& row) {
+  return row.shows == Shows::still && *row.browser_type != 0;
+}
+
+// The first of the forms in which a picture is there and browsers show it: drawn.png of drawn.pdf; "" where there is none.
+std::string shown_form(const std::string& path) {
+  std::error_code code;
+  for (const OutputFormat& row : output_formats()) {
+    if (!is_shown(row)) continue;
+    const std::string form = lower_case_ending(path) == row.ending ? path : fs::path(path).replace_extension(row.ending).string();
+    if (fs::exists(form, code)) return form;
+  }
+  return "";
+}
 
 bool remembers(const std::string& path) {
   try {
@@ -80,13 +94,12 @@ std::string title_of(const std::string& path) {
 }  // namespace
 
 std::string shown_endings(const std::string& last_word) {
-  return std::string(kKinds[0][0]) + " " + last_word + " " + kKinds[1][0];
+  return endings_of(&is_shown, last_word);
 }
 
 std::string picture_type_of(const std::string& path) {
-  for (const auto& [ending, type] : kKinds)
-    if (lower_case_ending(path) == ending) return type;
-  return "";
+  const OutputFormat* format = find_output_format(path, Shows::still);
+  return format ? format->browser_type : "";
 }
 
 std::vector<std::string> pictures_in(const std::string& folder, std::vector<std::string>& left_out) {
@@ -96,18 +109,10 @@ std::vector<std::string> pictures_in(const std::string& folder, std::vector<std:
     const std::string path = entry.path().string();
     std::error_code code;
     if (!entry.is_regular_file(code) || goes_with(entry.path(), films)) continue;
-    if (!picture_type_of(path).empty()) {
-      // The same picture once.
-      const bool is_other_form = lower_case_ending(path) != kKinds[0][0] && fs::exists(fs::path(path).replace_extension(kKinds[0][0]), code);
-      if (!is_other_form && remembers(path)) found.push_back(path);
-      continue;
-    }
-    const OutputFormat* format = find_output_format(path);
-    const bool is_picture = format != nullptr && format->write_still != nullptr;
-    const bool has_other = std::any_of(std::begin(kKinds), std::end(kKinds), [&](const auto& kind) {
-      return fs::exists(fs::path(path).replace_extension(kind[0]), code);
-    });
-    if (is_picture && !has_other && remembers(path)) left_out.push_back(path);
+    if (find_output_format(path, Shows::still) == nullptr) continue;
+    // The same picture once.
+    const std::string form = shown_form(path);
+    if ((form.empty() || form == path) && remembers(path)) (form.empty() ? left_out : found).push_back(path);
   }
   std::sort(found.begin(), found.end());
   return found;

@@ -17,7 +17,6 @@
 namespace chainreel {
 namespace {
 
-const std::string kNoTorques = "no torques";
 constexpr double kCaptionSeconds = 2;  // at most; the next event ends it
 constexpr double kLeastCaption = 0.5;  // s that words stand, so that they can be read, beside those that come meanwhile
 constexpr double kSameInstant = 0.05;  // s of the film: what comes so close together comes at once
@@ -62,7 +61,8 @@ std::string torque_words(const Scene& scene) {
     text += (text.empty() ? "" : ", ") + (entry.control ? "a control" : entry.text);
     acts = acts || entry.control || entry.text != "0";
   }
-  return acts ? "torques (" + text + ")" : kNoTorques;
+  if (acts) return "torques (" + text + ")";
+  return scene.contact_force.empty() ? "no torques" : "torques that press alone";
 }
 
 // ", pushed by 60 N at trunk from 0.5 s to 0.6 s": what acts of each push, as its arrow shows it.
@@ -127,7 +127,7 @@ std::string motion_words(const PreparedScene& panel, const Trajectory& run) {
          (chain.gravity.norm() > 0
               ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
               : "no gravity and ") +
-         (panel.simulation.constraints.contact_forces.empty() || torque_words(scene) != kNoTorques ? torque_words(scene) : std::string("torques that press alone")) + press_words(panel) + push_words(panel) + payload_words(scene) +
+         torque_words(scene) + press_words(panel) + push_words(panel) + payload_words(scene) +
          resistance_words(chain) + ", starting " + (starts_at_rest ? "at rest" : "in motion") +
          " from q = " + vector_text(scene.start.q);
 }

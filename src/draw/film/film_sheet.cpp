@@ -61,10 +61,13 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
 constexpr double kNamesPad = 0.35;     // likewise, at both sides: a sheet's cells have no margin
 constexpr double kSmallerNames = 0.75;  // of Video::panel_names: smaller they are cut
 
+double full_title_size(const Scene& page) {
+  return page.video.panel_names > 0 ? page.video.panel_names : scaled(size::kSymbol, page.text_scale);
+}
+
 // The size at which every panel's title fits, if it is not too small to read.
 double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
-  const double names = stage.page.video.panel_names;
-  const double full = names > 0 ? names : scaled(size::kSymbol, stage.page.text_scale);
+  const double names = stage.page.video.panel_names, full = full_title_size(stage.page);
   double common = full;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const TextLine line =
@@ -101,7 +104,7 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& stor
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
   if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story, room);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
-  if (has_panel_titles) rows.title = kTitleRow * (page.video.panel_names > 0 ? page.video.panel_names : scaled(size::kSymbol, page.text_scale));
+  if (has_panel_titles) rows.title = kTitleRow * full_title_size(page);
   if (text.with_panel_titles && stage.is_ghost()) {
     key.emplace(stage, sheet.scene.width());
     rows.title = key->height();

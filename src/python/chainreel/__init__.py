@@ -2,7 +2,7 @@
 
     import chainreel as cr
 
-    arm = cr.load("rr")                   # a file, or a model that comes with chainreel
+    arm = cr.load("rr.urdf")              # a file, or a model that comes with chainreel
     arm.M([0.3, 1.2])                     # (nv, nv) mass matrix, kg m^2
     run = cr.Scene("rr_free").run()       # a file, a name, or a dict
     run.t, run.q, run.energy              # numpy views, without a copy

@@ -150,7 +150,7 @@ GroundLoad ground_load(ChainSystem& system, Workspace& ws, const GroundAxes& axe
 
 namespace {
 
-constexpr int kMostLooks = kLeastWatchedSteps * 8;  // at a step
+constexpr int kMostLooks = kLeastWatchedSteps * kLooksPerStep;  // at a step
 constexpr std::size_t kUsualHits = 64;  // room for as many is made before the run
 
 int sign_of(double x) {
