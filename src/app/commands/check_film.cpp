@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <optional>
 
 #include "app/cli/result.hpp"
@@ -153,25 +154,40 @@ struct OwnAudit {
   std::string folder;        // of the audit
 };
 
-// The audit that tells of a file: beside it, or that of another file of its folder which was written with it; "" where none does.
-std::string audit_telling_of(const std::string& path) {
-  const fs::path file(path);
-  std::error_code code;
-  if (const std::string usual = audit_path_of(path); fs::is_regular_file(usual, code)) return path;
-  std::vector<std::string> telling;
-  for (fs::directory_iterator entry(file.has_parent_path() ? file.parent_path() : ".", code), end; !code && entry != end; entry.increment(code)) {
-    if (lower_case_ending(entry->path().string()) != ".json") continue;
-    const Json audit = audit_beside(entry->path().string());
-    if (!audit.is_object() || !audit.contains(kAuditedFiles) || !audit[kAuditedFiles].is_array()) continue;
-    for (const Json& one : audit[kAuditedFiles])
-      if (word_of(one, "file") == file.filename().string()) telling.push_back(entry->path().string());
+// Which audits of a folder tell of a file that has none beside it. Each folder is read once.
+class AuditsOfFolders {
+ public:
+  // What tells of a file: itself where an audit lies beside it, else the one audit of its folder that does; "" where none or several do.
+  std::string telling_of(const std::string& path) {
+    const fs::path file(path);
+    std::error_code code;
+    if (fs::is_regular_file(audit_path_of(path), code)) return path;
+    const auto [folder, is_new] = folders_.try_emplace(file.has_parent_path() ? file.parent_path().string() : ".");
+    if (is_new) read(folder->first, folder->second);
+    const std::vector<std::string>& audits = folder->second[file.filename().string()];
+    return audits.size() == 1 ? audits.front() : "";
   }
-  return telling.size() == 1 ? telling.front() : "";
-}
 
-OwnAudit own_audit(const std::string& path) {
+ private:
+  using Tellers = std::map<std::string, std::vector<std::string>>;  // of each file's name the audits that tell of it
+
+  static void read(const std::string& folder, Tellers& tellers) {
+    std::error_code code;
+    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+      const std::string path = entry->path().string();
+      if (lower_case_ending(path) != ".json") continue;
+      const Json audit = audit_beside(path);
+      if (!audit.is_object() || !audit.contains(kAuditedFiles) || !audit[kAuditedFiles].is_array()) continue;
+      for (const Json& one : audit[kAuditedFiles]) tellers[word_of(one, "file")].push_back(path);
+    }
+  }
+
+  std::map<std::string, Tellers> folders_;
+};
+
+OwnAudit own_audit(const std::string& path, AuditsOfFolders& audits) {
   try {
-    const std::string telling = audit_telling_of(path);
+    const std::string telling = audits.telling_of(path);
     if (telling.empty()) return {};
     const AuditCheck check = check_audit(telling);
     const auto own = std::find_if(check.files.begin(), check.files.end(), [&](const AuditCheck::File& file) {
@@ -257,10 +273,11 @@ struct AskedFilms {
 // Of a folder, and of those in it, what an audit tells of; without one nobody knows where the scene lies.
 AskedFilms with_folders_opened(const std::vector<std::string>& paths) {
   AskedFilms all;
+  AuditsOfFolders audits;
   for (const std::string& path : paths) {
     std::error_code code;
     if (!fs::is_directory(path, code)) {
-      all.list.push_back({path, own_audit(path)});
+      all.list.push_back({path, own_audit(path, audits)});
       continue;
     }
     const std::size_t before = all.list.size();
@@ -269,7 +286,7 @@ AskedFilms with_folders_opened(const std::vector<std::string>& paths) {
       const std::string file = entry->path().string();
       const OutputFormat* format = find_output_format(file);
       if (!entry->is_regular_file(code) || format == nullptr || format->read_tags == nullptr) continue;
-      OwnAudit audit = remembers_scene(file) ? own_audit(file) : OwnAudit{};
+      OwnAudit audit = remembers_scene(file) ? own_audit(file, audits) : OwnAudit{};
       if (audit.json.is_object())
         all.list.push_back({file, std::move(audit)});
       else
