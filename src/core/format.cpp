@@ -51,6 +51,13 @@ std::string format_significant(double value, int digits) {
   return text.find('e') != std::string::npos && std::abs(value) >= 1 && std::abs(value) < kWritten ? format_fixed(*parse_number(text), 0) : text;
 }
 
+std::string format_digits(double value, int digits) {
+  const std::string usual = format_significant(value, digits);
+  const std::optional<double> rounded = parse_number(usual);
+  if (!rounded || *rounded == 0 || usual.find('e') != std::string::npos) return usual;
+  return format_fixed(value, std::max(digits - 1 - int(std::floor(std::log10(std::abs(*rounded)))), 0));
+}
+
 std::string lower_case_ending(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),

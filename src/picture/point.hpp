@@ -87,6 +87,9 @@ inline double distance_to(Point p, Point a, Point b) {
   return norm(p - (a + share * way));
 }
 
+inline Point nearest_in(const Rect& r, Point p) {
+  return {std::clamp(p.x, r.x0, r.x1), std::clamp(p.y, r.y0, r.y1)};
+}
 inline bool is_within(const Rect& a, const Rect& b) {
   return a.x0 >= b.x0 && a.x1 <= b.x1 && a.y0 >= b.y0 && a.y1 <= b.y1;
 }

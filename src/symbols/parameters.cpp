@@ -110,7 +110,6 @@ class Namer {
       for (const Way& way : ways_)
         if (way.from == int(i) && way.v.norm() > 0 && (com - share * way.v).norm() <= kSame * way.v.norm())
           return {factor * way.named[0], factor * way.named[1], factor * way.named[2]};
-    const Body& body = chain_.bodies[i];
     return name_vector(com, {"c", std::to_string(i), "m", "centre of mass of " + whose(i), SymbolKind::length}, symbols_);
   }
 

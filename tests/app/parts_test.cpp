@@ -125,6 +125,24 @@ TEST_F(Parts, JoinedAreTheWholeFilmByteForByte) {
   }
 }
 
+TEST_F(Parts, MadeInOtherFoldersAndWithoutOpenGlAreOfTheSameFilm) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "far/away");
+  render(folder.file("film.mp4"));
+  render(folder.file("a.mp4"), {"--shard", "1/2"});
+  ASSERT_EQ(run_program(render_of("rr_ellipse", {"--set", kEvents, "--set", kPlainSpeed, "-o", folder.file("far/away/a.mp4"), "--shard", "2/2"}),
+                        {.environment = {{"CHAINREEL_GL", "none"}}})
+                .status,
+            0);
+  const Words parts{folder.file("far/away/a.part-2-of-2.mp4"), folder.file("a.part-1-of-2.mp4")};
+  for (const char* output : {"joined.mp4", "far/joined.mp4"}) {
+    const ProgramResult result = join(parts, folder.file(output));
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(read_whole_file(folder.file(output)), read_whole_file(folder.file("film.mp4")));
+    EXPECT_EQ(run_program({"check", folder.file(output), "--today"}).status, 0) << "its audit leads to the scene from where it lies";
+  }
+}
+
 TEST_F(Parts, JoinedBesideOthersOfTheirNameLeaveTheirAuditTrue) {
   const TemporaryFolder folder;
   const Words brief{"--set", "duration=0.3", "--shard", "1/1", "-o", folder.file("p.webm")};

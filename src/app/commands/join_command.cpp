@@ -19,6 +19,7 @@
 #include "core/output_file.hpp"
 #include "encode/film_chunk.hpp"
 #include "encode/film_start.hpp"
+#include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
 namespace {
@@ -62,6 +63,10 @@ void require_same_film(const Part& a, const Part& b) {
     throw Error(ExitCode::bad_input, "is no part of the same film as " + a.path + ": " + what, {b.path});
   };
   const auto word = [](const Part& part, const char* key) { return part.facts.audit.value(key, Json()); };
+  const auto without_place = [](Json audit) {  // parts may lie elsewhere beside the scene
+    audit.erase(kScenePath);
+    return audit;
+  };
   const VideoSettings &s = a.facts.settings, &t = b.facts.settings;
   if (word(a, "model_sha256") != word(b, "model_sha256")) differ("its model is another one");
   if (word(a, "trajectory_sha256") != word(b, "trajectory_sha256")) differ("it shows another motion");
@@ -72,12 +77,27 @@ void require_same_film(const Part& a, const Part& b) {
   if (a.facts.program != b.facts.program)
     differ("it was rendered by chainreel " + b.facts.program + ", not " + a.facts.program);
   if (word(a, "versions") != word(b, "versions")) differ("it was rendered with other versions of libraries");
-  if (a.facts.libraries != b.facts.libraries)
+  if (!are_alike(a.facts.libraries, b.facts.libraries))
     differ("it was drawn or encoded by " + other_library(a.facts.libraries, b.facts.libraries));
   if (word(a, "style") != word(b, "style")) differ("its style's logo or font files are others");
   if (a.tags != b.tags) differ("its scene differs");
-  if (a.facts.film_sha256 != b.facts.film_sha256 || a.facts.audit != b.facts.audit)
-    differ("it was rendered with other meshes or fonts");
+  if (word(a, kMeshesHash) != word(b, kMeshesHash)) differ("it was rendered with other meshes");
+  if (a.facts.film_sha256 != b.facts.film_sha256) differ("it was rendered with other fonts");
+  const Json one = without_place(a.facts.audit), other = without_place(b.facts.audit);
+  if (one != other) differ("its audit differs in '" + Json::diff(one, other).front().value("path", "") + "'");
+}
+
+// The scene, where it lies from the first part that leads to it, as found from the folder of the joined film; else what the first says.
+Json joined_scene_path(const std::vector<Part>& parts, const std::string& output) {
+  for (const Part& part : parts) {
+    const Json told = part.facts.audit.value(kScenePath, Json());
+    if (!told.is_string() || fs::path(told.get<std::string>()).is_absolute()) continue;
+    std::error_code code;
+    const fs::path scene = fs::path(part.path).parent_path() / told.get<std::string>(), here = fs::current_path(code);
+    if (fs::is_regular_file(scene, code))
+      return path_from(fs::path(output).parent_path().string(), (here / scene).lexically_normal().lexically_proximate(here).string());
+  }
+  return parts.front().facts.audit.value(kScenePath, Json());
 }
 
 // In the order of the film, each frame once.
@@ -192,6 +212,7 @@ void run_join(const JoinOptions& options) {
   write_film(parts, files.film.temporary_path());
   files.film.commit();
   Json audit = facts.audit;
+  audit[kScenePath] = joined_scene_path(parts, options.output);
   Json film = audited_file(options.output);
   film.update(clip_facts(facts.settings.width, facts.settings.height, facts.settings.fps, facts.frames));
   audit[kAuditedFiles] = others.entries;

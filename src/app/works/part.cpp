@@ -228,6 +228,15 @@ std::vector<std::string> libraries_behind(const Fonts& fonts) {
   return libraries;
 }
 
+bool are_alike(const std::vector<std::string>& libraries, const std::vector<std::string>& others) {
+  const auto [mine, theirs] = std::ranges::mismatch(libraries, others);
+  if (mine == libraries.end() && theirs == others.end()) return true;
+  if (mine != std::prev(libraries.end()) || theirs != std::prev(others.end())) return false;
+  const auto is_without = [](const std::string& renderer) { return renderer == "chainreel, OpenGL none"; };
+  const auto is_pinned = [&](const std::string& renderer) { return is_without(renderer) || renderer.starts_with("llvmpipe"); };
+  return (is_without(*mine) || is_without(*theirs)) && is_pinned(*mine) && is_pinned(*theirs);
+}
+
 std::string film_hash(const ClipMemory& memory, const Fonts& fonts) {
   Sha256 hash;
   const auto add = [&hash](const auto& values) { hash.add(std::as_bytes(std::span(values))); };

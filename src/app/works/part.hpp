@@ -72,6 +72,8 @@ std::string meshes_hash(const PreparedFilm& film);
 
 // The builds of encoders, and what renders: parts and chunks by others are not joined, whatever versions these tell of.
 std::vector<std::string> libraries_behind(const Fonts& fonts);
+// Whether they make the same bytes: pages that llvmpipe draws are those that are filled without OpenGL.
+bool are_alike(const std::vector<std::string>& libraries, const std::vector<std::string>& others);
 
 // Of all that the film's pictures depend on but what draws and encodes them: its memory, which holds hashes of models, meshes and
 // motions, and fonts.

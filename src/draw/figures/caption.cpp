@@ -134,9 +134,7 @@ namespace {
 std::string entry_notation(double value, double largest) {
   const double size = std::abs(value);
   if (size <= kSameWidth * largest || !(size >= 1e-3 && size < 999.5)) return number_notation(value, largest);
-  const std::string usual = format_significant(value, 3);
-  const int decimals = 2 - int(std::floor(std::log10(std::abs(parse_number(usual).value_or(value)))));
-  return format_fixed(value, std::max(decimals, 0));
+  return format_digits(value, 3);
 }
 
 }  // namespace
@@ -248,12 +246,24 @@ CaptionLines caption_lines(const std::vector<std::vector<std::string>>& forms, d
   return lines;
 }
 
+namespace {
+
+double mass_width(const EffectiveMass& effective, const TextStyle& style, const Fonts& fonts) {
+  if (effective.Lambda) return lay_out_matrix(fonts, matrix_notations(*effective.Lambda), style).width;
+  return lay_out_text(fonts, singular_text(effective), {Face::label, style.size, style.color, Align::left}).advance;
+}
+
+}  // namespace
+
 double mass_size(const EffectiveMass& effective, double width, double text_scale, const Theme& theme, const Fonts& fonts) {
   const TextStyle style{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::left};
-  const double usual = effective.Lambda
-                           ? lay_out_matrix(fonts, matrix_notations(*effective.Lambda), style).width
-                           : lay_out_text(fonts, singular_text(effective), {Face::label, style.size, theme.ink, Align::left}).advance;
+  const double usual = mass_width(effective, style, fonts);
   return usual <= width ? style.size : std::max(std::min(style.size, scaled(kSmallestText, text_scale)), style.size * width / usual);
+}
+
+double usual_width(const std::string& pose, const EffectiveMass& effective, double text_scale, const Theme& theme, const Fonts& fonts) {
+  const TextStyle style{Face::math, scaled(size::kAxis, text_scale), theme.ink, Align::left};
+  return std::max(lay_out_math(fonts, pose, style).advance, mass_width(effective, style, fonts));
 }
 
 double caption_base(const Rect& box, double text_scale) {

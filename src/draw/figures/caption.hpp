@@ -64,6 +64,9 @@ void draw_caption_line(Picture& picture, const std::string& notation, double siz
 Rect draw_letter(Picture& picture, std::size_t panel, double size, const Rect& box, double text_scale, const Theme& theme,
                  const Fonts& fonts);
 
+// How wide it is in its usual size.
+double usual_width(const std::string& pose, const EffectiveMass& effective, double text_scale, const Theme& theme, const Fonts& fonts);
+
 // Draws pose and mass centred in `box`, from its top down.
 void draw_caption(Picture& picture, const std::string& pose, const EffectiveMass& effective, double size, const Rect& box,
                   double text_scale, const Theme& theme, const Fonts& fonts);

@@ -38,10 +38,10 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
   const Rect scene = panels.scene(i), first = panels.scene(0);
   const int clip = int(picture.clips.size());
   picture.clips.push_back(scene);
-  picture.add(
-      Polygon{{Point{scene.x0, scene.y0}, {scene.x1, scene.y0}, {scene.x1, scene.y1}, {scene.x0, scene.y1}},
-              4,
-              {{}, theme.rule, size::kFrameLine}});
+  const Rect frame = panels.frame(i);
+  picture.add(Polygon{{Point{frame.x0, frame.y0}, {frame.x1, frame.y0}, {frame.x1, frame.y1}, {frame.x0, frame.y1}},
+                      4,
+                      {{}, theme.rule, size::kFrameLine}});
   const std::size_t framed = picture.items.size();
   Camera camera = panels.camera;
   camera.origin = camera.origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
@@ -79,8 +79,14 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
               {scene.x0 + kLabelInset, scene.y1 - kLabelInset - 0.75 * text.size}, clip);
   }
   const double text_scale = panels.options.text_scale;
-  Rect caption{scene.x0, panels.places[i].y0, scene.x1, scene.y0};
-  if (panels.options.letters) caption = draw_letter(picture, i, panels.words.size, caption, text_scale, theme, panels.fonts);
+  Rect caption = panels.words_box(i);
+  if (panels.options.letters) {
+    const Rect whole = caption;
+    caption = draw_letter(picture, i, panels.words.size, caption, text_scale, theme, panels.fonts);
+    // In the middle of the panel, where a letter leaves room for that.
+    const double taken = panels.lines.empty() ? usual_width(panels.words.notations[i], pose.effective, text_scale, theme, panels.fonts) : whole.width();
+    if ((whole.width() - taken) / 2 > caption.x0 - whole.x0) caption = whole;
+  }
   if (!panels.lines.empty())
     for (std::size_t line = 0; line <= panels.below.size(); ++line)
       draw_caption_line(picture, (line == 0 ? panels.words.notations : panels.below[line - 1])[i], panels.words.size, caption, text_scale,

@@ -26,10 +26,6 @@ struct Candidate {
   double cost = 0;  // whatever the others do
 };
 
-Point nearest_in(const Rect& r, Point p) {
-  return {std::clamp(p.x, r.x0, r.x1), std::clamp(p.y, r.y0, r.y1)};
-}
-
 bool segments_cross(Point a, Point b, Point c, Point d) {
   const double s = cross(b - a, c - a), t = cross(b - a, d - a), u = cross(d - c, a - c), v = cross(d - c, b - c);
   return s * t < 0 && u * v < 0;
@@ -139,14 +135,16 @@ std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::spa
 
 int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, std::vector<Obstacle> obstacles, const Rect& scene,
                    const Theme& theme, int clip, bool most_or_none) {
-  // An axis that fades out of the panel at both ends has its number at one of them.
+  // An axis that fades out of the panel at both ends has its number at one of them, or beside it there.
   std::vector<MarkWord> others;
   const Rect room = widened(scene, -kLabelInset);
   for (MarkWord word : words.words()) {
-    if (word.name == kLengthAtEdge) word.places = {moved_into(room, word.places.front())};
-    const bool is_other_end = word.name == kLengthAtEdge && !others.empty() && others.back().name == kLengthAtEdge && others.back().places.size() == 1;
+    const bool is_at_edge = word.name == kLengthAtEdge;
+    if (is_at_edge)
+      for (Rect& place : word.places) place = moved_into(room, place);
+    const bool is_other_end = is_at_edge && !others.empty() && others.back().name == kLengthAtEdge && others.back().places.size() == word.places.size();
     if (is_other_end)
-      others.back().places.push_back(word.places.front());
+      others.back().places.insert(others.back().places.end(), word.places.begin(), word.places.end());
     else
       others.push_back(word);
   }

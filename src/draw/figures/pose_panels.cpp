@@ -89,7 +89,7 @@ namespace {
 // How wide the text of a caption may be.
 double caption_width(const Panels& panels) {
   const double letter = panels.options.letters ? 2.5 * scaled(size::kAxis, panels.options.text_scale) : 0;
-  return panels.places[0].width() - letter;
+  return panels.words_box(0).width() - letter;
 }
 
 bool has_matrices(const Panels& panels, const std::vector<Pose>& poses) {
@@ -237,11 +237,23 @@ Point fit_ellipses(Panels& panels, const std::vector<Pose>& poses, Workspace& ws
   return shown;
 }
 
+// Poses and matrices beside their scenes, where these keep the larger part of the cells.
+bool put_words_beside(Panels& panels, const std::vector<Pose>& poses) {
+  constexpr double kMostBeside = 0.5, kAirEms = 2;
+  const PoseFigureOptions& options = panels.options;
+  double widest = 0;
+  for (const Pose& pose : poses)
+    widest = std::max(widest, usual_width(pose_notations(panels.chain, pose.q).front(), pose.effective, options.text_scale, *options.theme, panels.fonts));
+  panels.beside = widest + (kAirEms + (options.letters ? 2.5 : 0)) * scaled(size::kAxis, options.text_scale);
+  return panels.beside <= kMostBeside * panels.places[0].width() && panels.caption <= panels.places[0].height() && has_matrices(panels, poses);
+}
+
 // Panels so many across; false where they are too small.
-bool lay_out(Panels& panels, const Rect& area, int across, const std::vector<Pose>& poses, Workspace& ws) {
+bool lay_out(Panels& panels, const Rect& area, int across, bool beside, const std::vector<Pose>& poses, Workspace& ws) {
   const PoseFigureOptions& options = panels.options;
   panels.places = panels_of(area, int(poses.size()), across, gutter_of(panels.page));
   panels.caption = caption_height(int(poses[0].effective.basis.directions.size()), options.text_scale);
+  if (beside && !put_words_beside(panels, poses)) return false;
   if (!has_matrices(panels, poses)) {
     write_lines(panels, poses);
     if (panels.lines[0].size() > 1) name_what_differs(panels.lines, panels, poses);
@@ -294,11 +306,12 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
   const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts, page.height).scene;
   std::optional<Panels> best;
   const int count = int(poses.size()), only = options.layout == "row" ? count : std::min(options.across, count);
-  for (int across = std::max(only, 1); across <= (only > 0 ? only : count); ++across) {
-    Panels panels{chain, page, fonts};
-    if (lay_out(panels, area, across, poses, ws) && (!best || merit(panels) > merit(*best)))
-      best.emplace(std::move(panels));
-  }
+  for (int across = std::max(only, 1); across <= (only > 0 ? only : count); ++across)
+    for (const bool beside : {false, true}) {
+      Panels panels{chain, page, fonts};
+      if (lay_out(panels, area, across, beside, poses, ws) && (!best || merit(panels) > merit(*best)))
+        best.emplace(std::move(panels));
+    }
   return best;
 }
 

@@ -13,10 +13,6 @@ namespace chainreel {
 
 inline constexpr double kLabelInset = 0.014;  // of words in a panel's corner
 
-inline Rect above_caption(const Rect& panel, double caption) {
-  return {panel.x0, panel.y0 + caption, panel.x1, panel.y1};
-}
-
 // What all panels share.
 struct Panels {
   const Chain& chain;
@@ -24,7 +20,8 @@ struct Panels {
   const Fonts& fonts;
   const PoseFigureOptions& options = page.options;
   std::vector<Rect> places{};
-  double caption = 0;                           // height of the words below each scene
+  double caption = 0;                           // height of the words of each scene
+  double beside = 0;                            // their width where they stand beside it; else they stand below
   std::vector<std::vector<std::string>> lines{};  // one a panel, where that is its whole caption
   CaptionLines words{};                           // what of them is written; else the poses above their numbers
   std::vector<std::vector<std::string>> below{};  // further lines of such captions, one a panel each
@@ -37,7 +34,18 @@ struct Panels {
   Skeleton skeleton{};
   Camera camera{};  // of the first panel
 
-  Rect scene(std::size_t i) const { return above_caption(places[i], caption); }
+  Rect scene(std::size_t i) const {
+    const Rect& place = places[i];
+    return beside > 0 ? Rect{place.x0, place.y0, place.x1 - beside, place.y1} : Rect{place.x0, place.y0 + caption, place.x1, place.y1};
+  }
+  // What is framed: the words beside a scene with it.
+  Rect frame(std::size_t i) const { return beside > 0 ? places[i] : scene(i); }
+  Rect words_box(std::size_t i) const {
+    const Rect &place = places[i], seen = scene(i);
+    if (!(beside > 0)) return {seen.x0, place.y0, seen.x1, seen.y0};
+    const double middle = (place.y0 + place.y1) / 2;
+    return {seen.x1, middle - caption / 2, place.x1 - kLabelInset, middle + caption / 2};
+  }
   // Where the chain may be: below the words in its corner.
   Rect picture(std::size_t i) const {
     Rect rest = scene(i);

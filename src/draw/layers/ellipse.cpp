@@ -73,7 +73,10 @@ void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point cent
   if (!style.draws_above()) return;
   for (const PageAxis& axis : axes) {
     if (!(norm(axis.v) > kNoLength)) continue;
-    draw_length(picture, center, axis.v, *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip);
+    std::vector<Point> others;
+    for (const PageAxis& other : axes)
+      if (&other != &axis && style.unnamed != nullptr) others.push_back(other.v);
+    draw_length(picture, center, axis.v, *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip, others);
   }
 }
 

@@ -17,6 +17,7 @@ constexpr double kNumberGaps[] = {0.010, 0.018};        // units of H, beyond th
 constexpr double kBesideGaps[] = {0.010, 0.018, 0.03};    // ... beside it, of one that is short
 constexpr double kFarNumberGaps[] = {0.05, 0.09, 0.13};  // ... where a robot is in the way
 constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
+constexpr double kOwnByFar = 0.7;                       // of the way to the end of another axis: a number is that of the nearer one
 constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
 
 }  // namespace
@@ -249,7 +250,7 @@ double strength_of_length(Point center, Point v, const EllipseStyle& style) {
 
 TextLine text_of_length(double length, double strength, const EllipseStyle& style) {
   const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg";
-  return lay_out_text(*style.fonts, format_significant(length, 3) + unit,
+  return lay_out_text(*style.fonts, format_digits(length, 3) + unit,
                       {Face::label, scaled(size::kTick, style.text_scale), style.theme->ellipse.faded(strength),
                        Align::left});
 }
@@ -277,32 +278,43 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
   draw_along(picture, sign, center, -1 * d, half_width, style, clip);
 }
 
-void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip) {
+void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
+                 std::span<const Point> others) {
   if (const double strength = strength_of_length(center, v, style); strength > 0) {
     const TextLine text = text_of_length(length, strength, style);
     draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
     draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
   }
   if (style.labels == nullptr || !style.signs) return;
-  if (norm(v) < kLeastAxis) {
+  // In a figure there is room for a line from the number to what it is of.
+  const bool has_lines = style.unnamed != nullptr && !style.hides;
+  if (norm(v) < (has_lines ? kNoLength : kLeastAxis)) {
     if (style.unnamed != nullptr) ++*style.unnamed;
     return;
   }
   MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
+  const auto to_ends = [&](const Rect& place, Point axis) { 
+    const Point ahead = center + axis, behind = center - axis;
+    return std::min(norm(nearest_in(place, ahead) - ahead), norm(nearest_in(place, behind) - behind));
+  };
+  const auto can_stand = [&](const Rect& place) {
+    return is_within(place, style.scene) &&
+           std::ranges::all_of(others, [&](Point other) { return to_ends(place, v) < kOwnByFar * to_ends(place, other); });
+  };
   // That of an axis shorter than its words are high stands beside it: beyond its end it would stand nearer to the tip of the other one.
   if (norm(v) < word.line.box.height())
     for (const double gap : kBesideGaps)
       for (const double side : {1.0, -1.0}) {
         const Point end = center + side * v;
         const Rect place = place_beyond(word.line, end, gap, {std::copysign(1.0, side * v.x), 0});
-        if (std::abs(v.x) > std::abs(v.y) / 2 && is_within(place, style.scene)) word.places.push_back(place);
+        if (std::abs(v.x) > std::abs(v.y) / 2 && can_stand(place)) word.places.push_back(place);
       }
   for (const double gap : kNumberGaps)
     for (const double side : {1.0, -1.0}) {
       const Point d = side * unit(v), end = center + side * v;
       for (const double aside : kAside) {
         const Rect place = place_beyond(word.line, end, gap, std::cos(aside) * d + std::sin(aside) * normal_to(d));
-        if (is_within(place, style.scene)) word.places.push_back(place);
+        if (can_stand(place)) word.places.push_back(place);
       }
     }
   // In space the robot may lie around the ends of an axis.
@@ -313,18 +325,22 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
         if (is_within(place, style.scene)) word.places.push_back(place);
     word.tie = Tie{end, kNumberGaps[0], style.theme->ellipse};
   }
-  // In a figure beside the axis, too.
-  if (style.unnamed != nullptr && !style.hides) {
+  if (has_lines) {
     for (const double share : {0.7, -0.7, 0.4, -0.4})
       for (const double side : {1.0, -1.0})
         for (const double gap : kNumberGaps) {
           const Rect place = place_beyond(word.line, center + share * v, gap + style.hole, side * normal_to(unit(v)));
-          if (is_within(place, style.scene)) word.places.push_back(place);
+          if (can_stand(place)) word.places.push_back(place);
         }
+    for (const double gap : kFarNumberGaps)
+      for (const double side : {1.0, -1.0})
+        for (const Rect& place : places_about(word.line, center + side * v, gap, side * unit(v)))
+          if (is_within(place, style.scene)) word.places.push_back(place);
+    word.tie = Tie{center + v, kNumberGaps[0], style.theme->ellipse, center - v};
   }
   if (!word.places.empty())
     style.labels->add(std::move(word));
-  else if (style.unnamed != nullptr)
+  else if (style.unnamed != nullptr && !(strength_of_length(center, v, style) > 0))
     ++*style.unnamed;
 }
 

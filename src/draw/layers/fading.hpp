@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -81,8 +82,10 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 
 // "7.91 kg", of the axis from center - v to center + v, `length` in the unit of the reading: where it leaves the scene at both
 // of its ends at each of them, stronger the further it leads out; else, of a style with labels, as a word of the film beyond
-// the end of v or else at the other one, where either is in the scene.
-void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip);
+// the end of v or else at the other one, where either is in the scene; in flat figures nowhere where it could be taken for that of another
+// axis, whose vectors are `others`.
+void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
+                 std::span<const Point> others = {});
 
 // The name of such numbers among words.
 inline constexpr const char* kLengthAtEdge = "length";

@@ -160,9 +160,10 @@ void draw_tie(Picture& picture, const Tie& tie, const Rect& box, Color backgroun
 
 std::optional<TieLine> line_of(const Tie& tie, const Rect& box) {
   const Rect air = widened(box, kLeaderGap);
-  const Point from{std::clamp(tie.to.x, air.x0, air.x1), std::clamp(tie.to.y, air.y0, air.y1)}, way = from - tie.to;
+  const auto way_from = [&](Point end) { return nearest_in(air, end) - end; };
+  const Point end = tie.other_end && norm(way_from(*tie.other_end)) < norm(way_from(tie.to)) ? *tie.other_end : tie.to, way = way_from(end);
   if (!(norm(way) > tie.near + kShortestTie)) return {};
-  return TieLine{from, tie.to + (tie.near / norm(way)) * way};
+  return TieLine{end + way, end + (tie.near / norm(way)) * way};
 }
 
 void MarkLabels::add(MarkWord word) {

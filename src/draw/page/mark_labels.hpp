@@ -19,11 +19,12 @@ struct Leader {
   Color color;
 };
 
-// A thin line from a word that stands farther than `near` from what it names, up to there.
+// A thin line from a word that stands farther than `near` from what it names, up to there, or to its other end if that is nearer.
 struct Tie {
   Point to;
   double near = 0;
   Color color;
+  std::optional<Point> other_end{};
 };
 
 struct TieLine {
