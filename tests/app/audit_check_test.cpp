@@ -199,6 +199,35 @@ TEST(FilmOfToday, NamesTheTableAndTheFilmsOfABrokenScene) {
   EXPECT_THAT(broken.err, AllOf(HasSubstr("unknown key 'foo'"), HasSubstr("docs/b.mp4 shows it"), HasSubstr("deep/a.mp4: is not what ")));
 }
 
+// Tables of `render`, which remember nothing, are made again; those that nothing tells of are named.
+TEST(FilmOfToday, AsksTablesToo) {
+  const TemporaryFolder folder;
+  const std::string model = read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf");
+  folder.write("rr.urdf", model);
+  const std::string scene = folder.write("a.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.1\nmethod: rk4\n");
+  for (const char* table : {"a.csv", "b.npz"})
+    ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", folder.file("docs/" + std::string(table)), "--set", "duration=0.2"}).status, 0);
+  ASSERT_EQ(run_program({"simulate", scene, "--quiet", "-o", folder.file("docs/c.csv")}).status, 0);
+  const auto asked = [&] { return run_program({"check", folder.file("docs"), "--today"}); };
+  const ProgramResult same = asked();
+  EXPECT_EQ(same.status, 0) << same.err;
+  EXPECT_THAT(same.out, AllOf(HasSubstr("a.csv is what "), HasSubstr("b.npz is what ")));
+  EXPECT_THAT(same.err, HasSubstr("1 file is not asked about, as no audit beside it tells the scene (--scene names it): " + folder.file("docs/c.csv")));
+  std::string heavier = model;
+  const std::string mass = "<mass value=\"";
+  heavier.replace(heavier.find(mass), mass.size(), mass + "1");
+  folder.write("rr.urdf", heavier);
+  const ProgramResult stale = asked();
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_THAT(stale.out, AllOf(HasSubstr("a.csv is NOT what "), HasSubstr("link link1: mass "), HasSubstr("its numbers are others")));
+  EXPECT_THAT(run_program({"check", folder.file("docs"), "--today", "--commands"}).out,
+              HasSubstr("--set duration=0.2 -o " + folder.file("docs/a.csv") + " --force"));
+  folder.write("rr.urdf", model);
+  EXPECT_EQ(run_program({"check", folder.file("docs/a.csv"), "--today"}).status, 0);
+  folder.write("docs/a.csv", read_whole_file(folder.file("docs/a.csv")) + "0\n");
+  EXPECT_EQ(run_program({"check", folder.file("docs/a.csv"), "--today"}).status, 1);
+}
+
 TEST_F(AuditCheckTest, OneByteMoreOrAnotherOneIsSeenInEachFile) {
   for (const char* name : {"a.mp4", "a.gif", "a.txt"}) {
     const std::string before = read_whole_file(folder_.file(name));

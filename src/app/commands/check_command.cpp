@@ -322,7 +322,7 @@ void add_check_command(CommandLine& app) {
       app.add_subcommand("check", "the effective scene with all defaults, what a model holds, or whether a film is as it was written");
   command->add_option("files", options->files, "a scene (.yaml), a model (.urdf), or a film or picture with its audit, NAME.json, beside it; with --today also several, and folders").required().names_input();
   add_scene_options(*command, options->common);
-  command->add_flag("--today", options->today, "of films and pictures: would their scenes, which the audits beside them name, make the same today?");
+  command->add_flag("--today", options->today, "of films, pictures and tables: would their scenes, which the audits beside them name, make the same today?");
   command->add_option("--scene", options->scene, "the same of this scene").names_input();
   command->add_flag("--commands", options->commands, "with --today: print the commands that make anew what is another thing today, for a shell");
   command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");

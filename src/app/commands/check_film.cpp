@@ -17,6 +17,7 @@
 #include "app/film/prepared.hpp"
 #include "app/report/audit_check.hpp"
 #include "app/report/driving_tables.hpp"
+#include "app/report/motion_table.hpp"
 #include "app/report/run_report.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/verify/physics_record.hpp"
@@ -229,8 +230,7 @@ struct AskedFilm {
 };
 
 // What makes it anew, as a shell's words. What has an audit beside it was made by `render`, a picture of one instant, too.
-std::vector<std::string> remaking_command(const Today& today, const ClipMemory& remembered) {
-  const Json at = remembered.audit.value("at", Json());
+std::vector<std::string> remaking_command(const Today& today, const Json& at) {
   const bool is_picture = find_output_format(today.path, Shows::motion) == nullptr && at.is_number();
   std::vector<std::string> words{"chainreel", "render", today.scene};
   if (is_picture) words.insert(words.end(), {"--at", format_shortest(at.get<double>()) + "s"});
@@ -239,8 +239,33 @@ std::vector<std::string> remaking_command(const Today& today, const ClipMemory& 
   return words;
 }
 
+bool is_table(const std::string& path) {
+  return find_output_format(path, Shows::table) != nullptr;
+}
+
+// A table of `render`: it remembers nothing, and is made again.
+Today table_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
+  const auto& [path, audit] = asked;
+  const PreparedFilm film = load_film(scene.empty() ? scene_behind(path, audit) : scene, changes_of(audit, common), true, common.quiet);
+  Today found{.path = path, .scene = film.scene.file};
+  found.knows_set = audit.json.is_object();
+  found.set = changes_of(audit, common);
+  if (found.knows_set) found.command = remaking_command(found, nullptr);
+  const Runs runs(film);
+  const std::string bytes = read_plain_file(path);
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (bytes == table_bytes(motion_table(film.panels[i].simulation, runs[i]), table_format_of(path))) return found;
+  const Json records = audit.json.is_object() ? audit.json.value(kMechanisms, Json::array()) : Json::array();
+  for (std::size_t i = 0; i < std::min(records.size(), film.panels.size()); ++i)
+    for (std::string& one : explain_models(records[i], mechanism_record(film.panels[i]))) found.words.push_back(std::move(one));
+  for (std::string& one : changed_tables(audit.json, film)) found.words.push_back(std::move(one));
+  found.words.emplace_back("its numbers are others");
+  return found;
+}
+
 Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const auto& [path, audit] = asked;
+  if (is_table(path)) return table_of_today(asked, scene, common);
   const ClipMemory remembered = recall(path);
   if (!remembered.figure.is_null())
     throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
@@ -252,7 +277,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
   nearest.knows_set = audit.json.is_object();
   nearest.set = changes_of(audit, common);
-  if (nearest.knows_set) nearest.command = remaking_command(nearest, remembered);
+  if (nearest.knows_set) nearest.command = remaking_command(nearest, remembered.audit.value("at", Json()));
   return nearest;
 }
 
@@ -285,15 +310,15 @@ AskedFilms with_folders_opened(const std::vector<std::string>& paths) {
       throw_if_interrupted();
       const std::string file = entry->path().string();
       const OutputFormat* format = find_output_format(file);
-      if (!entry->is_regular_file(code) || format == nullptr || format->read_tags == nullptr) continue;
-      OwnAudit audit = remembers_scene(file) ? own_audit(file, audits) : OwnAudit{};
+      if (!entry->is_regular_file(code) || format == nullptr || (format->read_tags == nullptr && format->shows != Shows::table)) continue;
+      OwnAudit audit = is_table(file) || remembers_scene(file) ? own_audit(file, audits) : OwnAudit{};
       if (audit.json.is_object())
         all.list.push_back({file, std::move(audit)});
       else
         all.passed_over.push_back(file);
     }
     if (code) throw Error(ExitCode::bad_input, "cannot be read as a folder: " + code.message(), {path});
-    if (all.list.size() == before) throw Error(ExitCode::bad_input, "holds no film or picture with an audit that tells its scene", {path});
+    if (all.list.size() == before) throw Error(ExitCode::bad_input, "holds no film, picture or table with an audit that tells its scene", {path});
     std::sort(all.list.begin() + std::ptrdiff_t(before), all.list.end(), [](const AskedFilm& a, const AskedFilm& b) { return a.path < b.path; });
   }
   std::sort(all.passed_over.begin(), all.passed_over.end());

@@ -163,7 +163,9 @@ void run_render(const RenderOptions& options) {
     if (result.part) reports.back()["part"] = {{"first", result.part->first}, {"behind", result.part->behind}};
     reports.back()["sidecars"] = result.sidecars;
     reports.back()["small_clips"] = small_clips(jobs[i], films[i], result.frames);
-    table.push_back({films[i].scene.name, std::to_string(result.frames), format_fixed(result.part ? frame_time(result.frames, films[i].scene.video.fps) : result.film_seconds, 2),
+    const double film_seconds = result.part ? frame_time(result.frames, films[i].scene.video.fps) : result.film_seconds;
+    const bool is_still = std::ranges::all_of(jobs[i].targets, [](const Target& target) { return target.format->shows == Shows::still; });
+    table.push_back({films[i].scene.name, is_still ? "1" : std::to_string(result.frames), is_still ? "-" : format_fixed(film_seconds, 2),
                      format_fixed(result.times.total, 2), joined(result.files, " ")});
   }
   tell_result(options.common, [&] { return Json{{"films", reports}}; }, [&] { std::fputs(table_text(table).c_str(), stdout); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -107,14 +108,14 @@ bool has_sidecars(const Target& target) {
   return is_there(audit) && is_there(fs::path(audit).replace_extension(".txt").string());
 }
 
+constexpr double kSameInstant = 1e-9;  // s
+
 // What a run's files say of themselves, to tell those that are there already.
 class FilesOfRun {
  public:
   // `at`: instant that pictures show, s.
   FilesOfRun(const PreparedFilm& film, double at)
-      : film_(film), runs_(film), scene_(placeless_scene_text(film.scene)), meshes_(meshes_hash(film)), style_(style_report(film)) {
-    const int still = std::clamp(runs_.clock().frame_at(at), 0, std::max(0, schedule_of(runs_).frames - 1));
-    at_ = runs_.times()[std::size_t(still)];
+      : film_(film), runs_(film), scene_(placeless_scene_text(film.scene)), meshes_(meshes_hash(film)), style_(style_report(film)), at_(at) {
     for (std::size_t i = 0; i < runs_.size(); ++i)
       hashes_.push_back({film.panels[i].scene.model.sha256(), audit_of(film.panels[i].simulation, runs_[i]).sha256});
   }
@@ -126,7 +127,7 @@ class FilesOfRun {
       if (is_cut_off(target.path)) return is_told_of(target);
       const ClipMemory memory = recall(target.path);
       if (memory.scene != scene_ || !is_same(memory.audit)) return false;
-      return target.format->shows != Shows::still || memory.audit.value("at", Json()) == Json(at_);
+      return target.format->shows != Shows::still || std::abs(memory.audit.value("at", HUGE_VAL) - at_) <= kSameInstant;
     } catch (const Error&) {
       return false;
     } catch (const Json::exception&) {
@@ -168,7 +169,7 @@ class FilesOfRun {
   Runs runs_;
   std::string scene_, meshes_;
   Json style_;
-  double at_ = 0;
+  double at_;
   std::vector<std::pair<std::string, std::string>> hashes_;  // of model and motion, a panel each
 };
 

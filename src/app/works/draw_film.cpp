@@ -273,8 +273,11 @@ void Workshop::draw_clip(Output& output, Pen& pen) {
 }
 
 void Workshop::draw_stills(Pen& pen) {
-  const auto picture = [&] { return work_.film.still(work_.still); };
-  const auto image = [&] { return pen.draw(work_.still); };
+  const Picture* other = work_.still_picture;
+  const auto picture = [&] { return other != nullptr ? *other : work_.film.still(work_.still); };
+  const auto image = [&] {
+    return other != nullptr ? rasterise(*other, work_.scene.video.width, work_.scene.video.height, work_.fonts) : pen.draw(work_.still);
+  };
   ClipMemory memory = work_.memory;
   memory.audit["at"] = work_.still_at;
   for (const Output& output : outputs_)

@@ -43,7 +43,7 @@ struct FilmWork {
   const Fonts& fonts;
   Schedule schedule;
   int still = 0;  // frame that single pictures show
-  double still_at = 0;  // instant of the motion that it shows, s
+  double still_at = 0;  // instant of the motion that they show, s
   const ClipMemory& memory;
   FrameRange range;     // of the film, as it is shown: all of it or a part
   std::string part;     // what films say of themselves as one, or ""
@@ -52,6 +52,7 @@ struct FilmWork {
   bool quiet = false;
   ComingRenderer* renderer = nullptr;  // of the scene's size, that draws what lies under all frames; none: one is made
   std::vector<ChunkTape>* tapes = nullptr;  // takes the frames of films, a tape a chunk; then these are not made
+  const Picture* still_picture = nullptr;   // of `still_at`, where no frame stands there
 };
 
 // Where the chunks of a film begin, and behind them its number of frames; whether its files may be cut there only.

@@ -22,6 +22,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
+#include "app/works/moment.hpp"
 #include "core/output_file.hpp"
 #include "draw/page/house_style.hpp"
 #include "encode/png.hpp"
@@ -83,13 +84,17 @@ void add_own_slow_motion(const FilmReport& report, std::vector<std::string>& not
                     " (--set slow_motion=none): " + joined(stretches));
 }
 
-// Pictures beside a film are frames of it, which `snapshot` need not show.
-void add_other_instant(const std::vector<Output>& outputs, double shown, double asked, const Scene& scene, std::vector<std::string>& notes) {
+// The picture of an instant between two frames, where a picture of it is wanted and the run comes so far.
+std::optional<Moment> moment_between(const std::vector<Output>& outputs, const PreparedFilm& film, double frame, double at, const Fonts& fonts) {
   constexpr double kSame = 1e-9;  // s
   const auto is_still = [](const Output& output) { return output.shows(Shows::still); };
-  if (std::abs(shown - asked) <= kSame || std::none_of(outputs.begin(), outputs.end(), is_still)) return;
-  notes.push_back(scene.name + ": the picture shows the frame of t = " + format_significant(shown, 5) + " s: `chainreel snapshot --at " +
-                  format_shortest(asked) + "` shows the instant itself");
+  if (std::abs(frame - at) <= kSame || std::none_of(outputs.begin(), outputs.end(), is_still)) return std::nullopt;
+  try {
+    return moment_at(film, at, fonts);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::numerical) throw;
+    return std::nullopt;  // the film of such a run fails, too, and is kept as far as it came
+  }
 }
 
 // What is to be said of a film that became what it is, to its caller or on standard error.
@@ -425,10 +430,10 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
 
   const int still = std::clamp(runs.clock().frame_at(job.at), 0, schedule.frames - 1);
   result.jobs = affordable_jobs(job.jobs, scene, outputs);
-  const double still_at = runs.times()[std::size_t(still)];
-  add_other_instant(outputs, still_at, job.at, scene, result.notes);
-  draw_film({pictures, scene, fonts, schedule, still, still_at, memory, range, part, key, result.jobs, job.quiet,
-             renderer ? &*renderer : nullptr},
+  const double frame_at = runs.times()[std::size_t(still)];
+  const std::optional<Moment> between = moment_between(outputs, film, frame_at, job.at, fonts);
+  draw_film({pictures, scene, fonts, schedule, still, between ? job.at : frame_at, memory, range, part, key, result.jobs, job.quiet,
+             renderer ? &*renderer : nullptr, nullptr, between ? &between->picture : nullptr},
             outputs, result.times);
   write_tables(runs, outputs);
   result.times.total = total.lap().wall;

@@ -16,7 +16,7 @@ namespace chainreel {
 
 struct RenderJob {
   std::vector<Target> targets;
-  double at = 0;  // s, instant of the motion that stills show: the frame that stands there
+  double at = 0;  // s, instant of the motion that stills show
   std::optional<PartRequest> part{};  // else all of the film
   bool resume = false;                // from the chunks that a killed run left
   int jobs = 0;   // threads that draw and encode; 0: all processors
