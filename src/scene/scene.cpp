@@ -38,7 +38,7 @@ const std::vector<std::string>& default_layers() {
 const std::vector<std::string>& default_layers_of_panels() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> some = default_layers();
-    for (const char* crowding : {"torque", "target"}) std::erase(some, crowding);
+    std::erase(some, "target");
     return some;
   }();
   return names;

@@ -158,16 +158,12 @@ class TorqueRun {
         tau_(torques_along(*motion.simulation(), motion.trajectory())),
         most_(nv_),
         shown_(nv_),
-        words_(nv_),
         rings_(nv_) {
     const std::vector<double>& t = motion.trajectory().t;
-    const std::vector<Device> devices = devices_of(stage, motion);
-    for (const Device& device : devices)
-      if (device.is_beside_bias()) take_bias_alone(motion.chain(), device);
     for (std::size_t at = 0; at < tau_.size(); ++at)
       if (std::isfinite(tau_[at])) most_[at % nv_] = std::max(most_[at % nv_], std::abs(tau_[at]));
     for (std::size_t i = 0; i < nv_; ++i) shown_[i] = most_[i] > 0;
-    for (const Device& device : devices)
+    for (const Device& device : devices_of(stage, motion))
       if (device.is_all_of_it()) shown_[std::size_t(device.drive.freedom)] = false;
     // Pictures to be laid over others have no words but those that were asked for.
     labelled_ = !is_transparent(stage.page) && std::count(shown_.begin(), shown_.end(), true) <= kMostTorqueLabels;
@@ -187,25 +183,13 @@ class TorqueRun {
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
   double most(int freedom) const { return most_[std::size_t(freedom)]; }
   bool is_labelled() const { return labelled_; }
-  std::string word(int freedom) const {
-    const std::string& own = words_[std::size_t(freedom)];
-    return own.empty() ? "tau_{" + std::to_string(freedom + 1) + "}" : own;
-  }
+  std::string word(int freedom) const { return "tau_{" + std::to_string(freedom + 1) + "}"; }
 
  private:
-  // The damper at the joint stands for the rest.
-  void take_bias_alone(const Chain& chain, const Device& device) {
-    const auto i = std::size_t(device.drive.freedom);
-    for (std::size_t at = i; at < tau_.size(); at += nv_) tau_[at] = device.drive.bias;
-    const bool turns = chain.bodies[std::size_t(device.body)].joint.kind == JointKind::revolute;
-    words_[i] = format_significant(device.drive.bias, 3) + (turns ? " N m" : " N");
-  }
-
   std::size_t nv_;
   std::vector<double> tau_;                 // nv a sample
   std::vector<double> most_;                // a freedom: of |tau| over the samples
   std::vector<bool> shown_;                 // a freedom
-  std::vector<std::string> words_;          // a freedom: instead of its symbol
   std::vector<std::vector<double>> rings_;  // a freedom, a sample
   bool labelled_ = true;
 };

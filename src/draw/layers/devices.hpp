@@ -16,8 +16,6 @@ struct Device {
 
   // It stands for the whole torque: what is seen of it says how large that is.
   bool is_all_of_it() const { return drive.whole && drive.is_spring(); }
-  // A constant torque against a damper, which stands for all but that: "8 - qd1".
-  bool is_beside_bias() const { return drive.whole && !drive.is_spring() && drive.bias != 0; }
 };
 
 // Those that the stage shows of a run: with its layer `springs`, on robots that are drawn as bars. Feedback to a reference is

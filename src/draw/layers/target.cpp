@@ -34,11 +34,7 @@ class Target : public Layer {
       if (motion.shapes()) continue;
       std::vector<double> q = references_along(*motion.simulation(), motion.trajectory());
       if (q.empty()) continue;
-      Followed followed{std::move(q), {}, std::make_unique<Workspace>(motion.chain()),
-                        std::vector<double>(std::size_t(motion.chain().nv))};
-      for (const LinearDrive& drive : linear_drives(*motion.simulation()))
-        if (drive.follows && drive.is_spring()) followed.springs.push_back(drive);
-      followed_.emplace(&motion, std::move(followed));
+      followed_.emplace(&motion, followed_by(motion, std::move(q)));
     }
   }
 
@@ -52,7 +48,7 @@ class Target : public Layer {
     pose(found->second, sight.motion.chain(), sight.k);
     const Workspace& ws = *found->second.ws;
     for (const LinkSegment& link : sight.motion.skeleton().links)
-      box.add(room_around(size::kLinkWidth / 2), sight.camera.flat(pose_of(ws, link.body) * link.to));
+      if (found->second.is_driven[std::size_t(link.body)]) box.add(room_around(size::kLinkWidth / 2), sight.camera.flat(pose_of(ws, link.body) * link.to));
   }
 
   void draw(Picture& picture, const Shot& shot) const override {
@@ -70,7 +66,8 @@ class Target : public Layer {
     look.filled = false;
     look.strength = kTargetShown;
     look.stroke = kTargetStroke;
-    const ChainDrawing drawing = panel.drawing(look);
+    ChainDrawing drawing = panel.drawing(look);
+    drawing.only = &followed.is_driven;
     draw_rails(picture, drawing, *followed.ws, panel.clip());
     draw_links(picture, drawing, *followed.ws, panel.clip());
     for (const LinearDrive& drive : followed.springs) draw_pull(picture, shot, drive, target);
@@ -82,7 +79,27 @@ class Target : public Layer {
     std::vector<LinearDrive> springs;   // that pull there
     std::unique_ptr<Workspace> ws;      // of the target; a film is drawn by one thread at a time
     std::vector<double> at_rest;
+    std::vector<bool> is_driven;        // bodies whose joint follows, by feedback that has gains or a model
   };
+
+  // What no gain drives follows nothing: it has no target, and stands as it stands.
+  static Followed followed_by(const StagedRun& motion, std::vector<double> q) {
+    const Chain& chain = motion.chain();
+    const auto n = std::size_t(chain.nv);
+    Followed followed{std::move(q), {}, std::make_unique<Workspace>(chain), std::vector<double>(n), {}};
+    std::vector<bool> follows(n, true);
+    const std::vector<LinearDrive> drives = linear_drives(*motion.simulation());
+    if (std::ranges::any_of(drives, &LinearDrive::follows)) follows.assign(n, false);
+    for (const LinearDrive& drive : drives) {
+      if (drive.follows && drive.is_spring()) followed.springs.push_back(drive);
+      if (drive.follows) follows[std::size_t(drive.freedom)] = true;
+    }
+    for (std::size_t at = 0; at < followed.q.size(); ++at)
+      if (!follows[at % n]) followed.q[at] = motion.trajectory().q_at(int(at / n))[at % n];
+    for (const Body& body : chain.bodies)
+      followed.is_driven.push_back(&body != &chain.bodies.front() && follows[std::size_t(body.joint.v_index)]);
+    return followed;
+  }
 
   // Lets the workspace stand as the target does at sample k; its coordinates.
   static ConstVec pose(const Followed& followed, const Chain& chain, int k) {

@@ -1,6 +1,7 @@
 #include "draw/layers/vectors.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -171,16 +172,31 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
   return entries;
 }
 
+namespace {
+
+// About the axis, along the rail; of what may point anywhere its size.
+double value_of(const WorldVector& vector) {
+  for (const Eigen::Vector3d& way : {vector.axis, vector.rail})
+    if (way.norm() > 0) return vector.value.dot(way);
+  return vector.value.norm();
+}
+
+}  // namespace
+
 VectorPen::VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales)
     : theme_(&theme), fonts_(&fonts), text_scale_(text_scale), scales_(scales) {}
 
-const TextLine& VectorPen::label(const WorldVector& vector, double marks) const {
-  const auto key = std::tuple{vector.kind, vector.label, marks};
+const TextLine& VectorPen::label(const WorldVector& vector, double marks, bool is_cut) const {
+  // An arrow that is cut does not say how large it is.
+  const std::string words = is_cut && !std::isdigit(static_cast<unsigned char>(vector.label.front()))
+                                ? vector.label + " = " + format_significant(value_of(vector), 2) + " " + unit_of(vector.kind)
+                                : vector.label;
+  const auto key = std::tuple{vector.kind, words, marks};
   const auto known = labels_.find(key);
   if (known != labels_.end()) return known->second;
   const TextStyle style{Face::math, scaled(std::max(size::kSymbol * std::sqrt(marks), kSmallestText), text_scale_),
                         color_of(vector.kind, *theme_), Align::left};
-  return labels_.emplace(key, lay_out_math(*fonts_, vector.label, style)).first->second;
+  return labels_.emplace(key, lay_out_math(*fonts_, words, style)).first->second;
 }
 
 VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera& camera, double marks, double share) const {
@@ -258,8 +274,9 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double dot = style.size * kTorqueDot;
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
   // A word beside a dot, where a larger arc would be, is the name of nothing.
-  if (vector.label.empty() || !(turn > kLeastNamed * widest) || std::abs(value) < kLeastOfOwn * vector.most) return;
-  const TextLine& text = label(vector, marks);
+  const bool is_small = !(turn > kLeastNamed * widest) || std::abs(value) < kLeastOfOwn * vector.most;
+  if (vector.label.empty() || (is_small && !(style.broken > 0))) return;
+  const TextLine& text = label(vector, marks, style.broken > 0);
   // Beside the largest arc of the clip: where all are small, a word where a full one would be stands alone.
   const double largest = std::min(1.0, scale.on_page(vector.most) / whole);
   const double off = std::max(largest * radius, kLeastLabelled * marks) + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
@@ -284,7 +301,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
              clip);
   // One beside hardly more than a head names what nobody sees.
   if (vector.label.empty() || norm(arrow.v) < kLeastLabelled * marks) return;
-  const TextLine& text = label(vector, marks);
+  const TextLine& text = label(vector, marks, arrow.broken > 0);
   labels.add({word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)});
 }
 

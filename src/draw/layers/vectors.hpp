@@ -106,7 +106,7 @@ class VectorPen {
     double broken = 0;
   };
   Straight straight(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
-  const TextLine& label(const WorldVector& vector, double marks) const;
+  const TextLine& label(const WorldVector& vector, double marks, bool is_cut = false) const;
   void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
                    MarkLabels& labels) const;
 

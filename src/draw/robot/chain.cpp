@@ -1,6 +1,7 @@
 #include "draw/robot/chain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -96,6 +97,31 @@ void draw_link(Picture& picture, const ChainDrawing& drawing, const Workspace& w
   }
 }
 
+// Two pieces of one body that leave its joint in different directions are one rigid piece, as a coupler with a point beside its line is:
+// a plate, where the motion is seen face-on.
+bool are_plate(const ChainDrawing& drawing, const LinkSegment& one, const LinkSegment& other) {
+  constexpr double kFlat = 0.05;  // sine of the angle between both: below it one lies along the other
+  const Vector3d u = one.to - one.from, v = other.to - other.from;
+  return is_face_on(drawing) && one.body == other.body && one.from == other.from && u.cross(v).norm() > kFlat * u.norm() * v.norm();
+}
+
+void draw_plate(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const LinkSegment& one, const LinkSegment& other, int clip) {
+  const Eigen::Isometry3d X_WB = pose_of(ws, one.body);
+  const std::array<Point, 3> corners{drawing.camera.project(X_WB * one.from), drawing.camera.project(X_WB * one.to),
+                                     drawing.camera.project(X_WB * other.to)};
+  if (!std::ranges::all_of(corners, is_drawable)) return;
+  const ChainLook& look = drawing.look;
+  const Color fill = filling(link_color(drawing, one.body), look), ink = toned(look.theme->ink, look);
+  const double line = look.stroke * size::kLinkOutline, half = look.link_width / 2;
+  constexpr double kInside = 0.3;
+  picture.add(Polygon{{corners[0], corners[1], corners[2]}, 3, {fill.faded(kInside), look.filled ? Color{} : ink, line}}, clip);
+  if (!look.filled) return;
+  // Outlines first, so that none crosses where two sides meet.
+  for (const auto& [color, radius] : {std::pair{ink, half + line / 2}, {fill, half - line / 2}})
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      picture.add(Capsule{corners[i], corners[(i + 1) % corners.size()], radius, {color, {}, 0}}, clip);
+}
+
 // What is fixed between the root link and a joint, and the ground mark.
 void draw_foot(Picture& picture, const ChainDrawing& drawing, const Body& body, int clip) {
   const Vector3d root = root_place(drawing.chain), place = body.joint.X_PJ.translation();
@@ -185,6 +211,7 @@ void draw_base(Picture& picture, const ChainDrawing& drawing, int clip) {
 void draw_rails(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, int clip) {
   if (drawing.shapes) return;
   for (const Rail& rail : drawing.skeleton.rails) {
+    if (!drawing.shows(rail.body)) continue;
     if (drawing.chain.bodies[std::size_t(rail.body)].parent != 0)
       draw_rail_of(picture, drawing, ws, rail, clip);
     if (rail.carrier) draw_carriage_of(picture, drawing, ws, rail, clip);
@@ -208,7 +235,14 @@ void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& 
   };
   std::size_t link = 0, rail = 0;
   for (int b = 1; b < int(drawing.chain.bodies.size()); ++b) {
-    for (; link < links.size() && links[link].body == b; ++link) {
+    const bool is_shown = drawing.shows(b);
+    const auto behind = std::size_t(std::find_if(links.begin() + std::ptrdiff_t(link), links.end(), [b](const LinkSegment& one) { return one.body != b; }) - links.begin());
+    if (is_shown && behind == link + 2 && are_plate(drawing, links[link], links[link + 1])) {
+      draw_plate(part_at(0), drawing, ws, links[link], links[link + 1], clip);
+      link = behind;
+    }
+    for (; link < behind; ++link) {
+      if (!is_shown) continue;
       // A link is as far as its farther end, so that the joint where it begins or ends lies above it.
       const Eigen::Isometry3d X_WB = pose_of(ws, b);
       const double depth = std::min(drawing.camera.depth(X_WB * links[link].from),
@@ -216,14 +250,14 @@ void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& 
       draw_link(part_at(depth), drawing, ws, links[link], clip);
     }
     for (const PointMass& point : drawing.chain.point_masses)
-      if (point.body == b) draw_point_mass(part_at(drawing.camera.depth(pose_of(ws, b) * point.at)), drawing, ws, point, clip);
+      if (point.body == b && is_shown) draw_point_mass(part_at(drawing.camera.depth(pose_of(ws, b) * point.at)), drawing, ws, point, clip);
     const Vector3d origin = pose_of(ws, b).translation();
     const Point center = drawing.camera.project(origin);
-    if (drawing.chain.bodies[std::size_t(b)].joint.kind == JointKind::revolute && is_drawable(center)) {
+    if (drawing.chain.bodies[std::size_t(b)].joint.kind == JointKind::revolute && is_drawable(center) && is_shown) {
       draw_revolute(part_at(drawing.camera.depth(origin)), center, drawing.look, clip);
     }
     if (rail < rails.size() && rails[rail].body == b) {
-      if (!rails[rail].carrier) {
+      if (!rails[rail].carrier && is_shown) {
         draw_carriage_of(part_at(drawing.camera.depth(origin)), drawing, ws, rails[rail], clip);
       }
       ++rail;

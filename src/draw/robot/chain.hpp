@@ -16,6 +16,9 @@ struct ChainDrawing {
   const Camera& camera;
   ChainLook look;
   const BodyShapes* shapes = nullptr;  // drawn instead of bars, joints and ground marks
+  const std::vector<bool>* only = nullptr;  // bodies whose bars and joints are drawn; null: all
+
+  bool shows(int body) const { return only == nullptr || (*only)[std::size_t(body)]; }
 };
 
 // Ground, fixed parts and the rails fixed to them: the same at every pose.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/chains.hpp"
 #include "draw/figures/caption.hpp"
 #include "draw/figures/ellipse_figure.hpp"
@@ -167,9 +168,68 @@ TEST(EllipseFigure, OfManyPosesIsMostlyPictures) {
       for (std::size_t at = words.find('='); at != std::string::npos; at = words.find('=', at + 1)) ++named;
       EXPECT_GE(named, count);
     }
-  // Negative control: four have their matrices.
+  // Negative control: three above one another have their matrices, which take a third.
+  PoseFigureOptions column = with_layout("grid");
+  column.across = 1;
+  column.width = 1080;
+  const Picture three = draw_ellipse_figure(TipMass(test::model("rr")), std::vector<std::vector<double>>(3, {0, 1}), column, fonts());
+  EXPECT_LT(three.clips[0].height() / (three.clips[0].height() + caption_height(2, 1)), 0.75);
+}
+
+// Wide cells have their words beside the pictures, which are as high as the cells then.
+TEST(EllipseFigure, HasPosesAndMatricesBesidePicturesThatAreWide) {
   const Picture four = draw_ellipse_figure(TipMass(test::model("rr")), std::vector<std::vector<double>>(4, {0, 1}), {}, fonts());
-  EXPECT_LT(four.clips[0].height() / (four.clips[0].height() + caption_height(2, 1)), 0.75);
+  const auto frames = test::all_of<Polygon>(four, [](const Polygon& p) { return p.paint.stroke == light_theme().rule; });
+  ASSERT_EQ(frames.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(frames[i].corners[2].y - frames[i].corners[0].y, four.clips[i].height(), 1e-12);
+    EXPECT_GT(frames[i].corners[2].x - frames[i].corners[0].x, 1.3 * four.clips[i].width());
+  }
+}
+
+// The number of each axis is nearer to an end of that axis than to one of the other, or a line leads there: whatever the pose.
+TEST(EllipseFigure, NumbersStandBesideTheAxisThatTheyAreOf) {
+  const Chain chain = test::model("rr");
+  int looked_at = 0, tied = 0;
+  for (int i = 0; i < 30; ++i) {
+    const std::vector<double> q{0.3 * i, 0.25 + 0.09 * i};
+    for (const int width : {1920, 900}) {
+      PoseFigureOptions options;
+      options.width = width;
+      const Picture picture = draw_ellipse_figure(TipMass(chain), {q, {0.1, 1.3}}, options, fonts());
+      const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+      ASSERT_FALSE(ellipses.empty());
+      const Ellipse& own = ellipses.front();
+      const EffectiveMass mass = TipMass(chain).at(*std::make_unique<Workspace>(chain), q);
+      const std::vector<MassAxis> axes = mass_axes(mass);
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const std::string words = format_digits(*axes[axis].mass, 3) + " kg";
+        const Point half = axis == 0 ? own.u : own.v, other = axis == 0 ? own.v : own.u;
+        // Of the first panel.
+        const auto runs = test::all_of<GlyphRun>(picture, [&](const GlyphRun& run) { return run.text == words && run.origin.x < picture.clips[0].x1; });
+        if (runs.empty()) continue;
+        const auto ties = test::all_of<Capsule>(picture, [&](const Capsule& c) {
+          const auto ends_at = [&](Point p) { return std::min(test::distance(c.b, own.center + p), test::distance(c.b, own.center - p)); };
+          return c.paint.fill == light_theme().ellipse && ends_at(half) < 0.012;
+        });
+        ++looked_at;
+        if (!ties.empty()) {
+          ++tied;
+          continue;
+        }
+        const TextLine line = lay_out_text(fonts(), words, {Face::label, scaled(size::kTick, 1), {}, Align::left});
+        const Point at = runs.front().origin;
+        const Rect box{at.x, at.y + line.box.y0, at.x + line.box.width(), at.y + line.box.y1};
+        const auto to_ends = [&](Point v) {
+          const Point a = own.center + v, b = own.center - v;
+          return std::min(test::distance(nearest_in(box, a), a), test::distance(nearest_in(box, b), b));
+        };
+        EXPECT_LT(to_ends(half), to_ends(other)) << i << " " << width << " " << words;
+      }
+    }
+  }
+  EXPECT_GT(looked_at, 80);
+  EXPECT_GT(tied, 5);
 }
 
 // A stretched chain among others has no part in the scale.

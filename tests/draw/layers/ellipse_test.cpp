@@ -175,7 +175,7 @@ TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
         EXPECT_NEAR(ellipses[0].fade.opacity_at({x, 0.5}), std::min(inside, 1.0), 1e-9);
     const auto words = test::all_of<GlyphRun>(picture);
     ASSERT_EQ(words.size(), 2u);
-    EXPECT_EQ(words[0].text, "1 kg");
+    EXPECT_EQ(words[0].text, "1.00 kg");
     EXPECT_NEAR(words[0].color.a, std::min(1.0, excess / 0.02), 1e-9);
   }
   // Just inside, it is whole.

@@ -83,6 +83,21 @@ TEST(Chain, LinksRunFromJointToJointToGripper) {
 }
 
 // Negative control of the test above: at another pose its claims do not hold.
+// A coupler with a point beside its line is one rigid piece, not two bars that a pin holds; a point on its line makes no plate.
+TEST(Chain, ABodyWithAPointBesideItsLineIsAPlate) {
+  const auto plates = [](const Chain& chain) {
+    const Drawn drawn(chain, {1, 0.3, -0.6});
+    return test::all_of<Polygon>(drawn.links, [](const Polygon& p) { return p.count == 3 && p.paint.fill.a > 0 && p.paint.fill.a < 1; });
+  };
+  Chain chain = test::model("four_bar");
+  const auto found = plates(chain);
+  ASSERT_EQ(found.size(), 1u);
+  const Drawn drawn(chain, {1, 0.3, -0.6});
+  EXPECT_EQ(drawn.capsules().size(), 2u) << "crank and rocker";
+  chain.frames[std::size_t(chain.end_effector)].X_BF.translation() = Eigen::Vector3d(0.5, 1e-4, 0);
+  EXPECT_TRUE(plates(chain).empty());
+}
+
 TEST(Chain, OfAnotherPoseLiesElsewhere) {
   const Drawn rr(test::model("rr"), {0.3, -1.1}), other(test::model("rr"), {0.3, -1.0});
   EXPECT_GT(test::distance(rr.capsules()[1].b, other.capsules()[1].b), 1e-3);
