@@ -80,7 +80,7 @@ TEST(FallCommand, FindsTheValueAtWhichTheEndChanges) {
   }
   EXPECT_TRUE(edges("parameters.h=1,2,3").empty());
   EXPECT_THAT(run_program({"fall", scene, "--sweep", "parameters.h=1:41:5", "--edges"}).out,
-              HasSubstr("parameters.h = 19.6203 (within 0.0004): from 'falls' to 'does not fall', between the rows 11 and 21"));
+              HasSubstr("parameters.h = 19.6203 (within 0.0004): from 'falls' to 'does not fall' in runs of 2 s, between the rows 11 and 21"));
   const std::string table = folder.file("edges.csv");
   run_program({"fall", scene, "--sweep", "parameters.h=1:41:5", "--edges", "-o", table});
   EXPECT_THAT(read_whole_file(table), HasSubstr("# edge: parameters.h = 19.62"));
@@ -97,8 +97,17 @@ TEST(FallCommand, FindsTheValueAtWhichTheEndChanges) {
   const std::string swings = folder.write("swings.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nstart: {q: [-90deg, 0], qd: [0, 0]}\nduration: 10\nmethod: dop853\n"
                                                          "tolerance: 1e-11\nevents: [{when: \"q1 > 90deg\", kind: fall, name: over}]\n");
   EXPECT_THAT(run_program({"fall", swings, "--sweep", "start.qd.1=3:9:7", "--edges"}).err, HasSubstr("the end changes more often between"));
+  // What only has not fallen yet does not stand: the edge is the duration's.
+  const std::string slow = folder.write("slow.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nstart: {q: [90deg, 0], qd: [0, 0]}\nduration: 0.8\nmethod: dop853\n"
+                                                     "tolerance: 1e-11\nevents: [{when: \"q1 > 120deg\", kind: fall, name: over}]\n");
+  const ProgramResult topples = run_program({"fall", slow, "--sweep", "start.q.1=91deg:119deg:2", "--edges"});
+  EXPECT_THAT(topples.out, HasSubstr("in runs of 0.8 s, between the rows"));
+  EXPECT_THAT(topples.err, HasSubstr("is that of the duration: at start.q.1 = "));
+  EXPECT_THAT(topples.err, HasSubstr("a run of 1.6 s ends with 'falls'"));
   // A foot has two edges between these rows: not down any more, and standing.
-  const Json human = Json::parse(run_program({"fall", kHuman, "--sweep", "parameters.k=0:1200:2", "--edges", "--json"}).out)["edges"];
+  const ProgramResult of_human = run_program({"fall", kHuman, "--sweep", "parameters.k=0:1200:2", "--edges", "--json"});
+  EXPECT_THAT(of_human.err, Not(HasSubstr("is that of the duration")));
+  const Json human = Json::parse(of_human.out)["edges"];
   ASSERT_EQ(human.size(), 2u);
   EXPECT_EQ(human[0]["to"], human[1]["from"]);
   EXPECT_EQ(human[1]["to"], "stands");

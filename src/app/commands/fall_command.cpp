@@ -39,6 +39,7 @@ bool has_failed(const FallRow& row) {
 
 // To this share of the distance of rows.
 constexpr double kEdgesTo = 1e-4;
+constexpr double kWellBefore = 0.02;  // of the distance of rows: nearer to an edge any run takes longer to end
 
 std::string to_words(const FallTable& table, const FallEdge& edge) {
   const double place = (edge.before + edge.behind) / 2, half = std::abs(edge.behind - edge.before) / 2;
@@ -48,7 +49,7 @@ std::string to_words(const FallTable& table, const FallEdge& edge) {
   // Rounded up, and one more for the place's own last digit.
   const double last = half > 0 ? std::pow(10, std::floor(std::log10(half))) : 0, within = half > 0 ? std::ceil(half / last + 0.1) * last : 0;
   return table.sweep.key + " = " + format_significant(place, digits) + unit + " (within " + format_significant(within, 1) + "): from '" + edge.from + "' to '" + edge.to +
-         "', between the rows " + format_significant(edge.row_before, 6) + " and " +
+         "' in runs of " + format_quantity(table.duration, "s") + ", between the rows " + format_significant(edge.row_before, 6) + " and " +
          format_significant(edge.row_behind, 6);
 }
 
@@ -77,6 +78,37 @@ std::vector<std::string> doubts_of_edges(const FallTable& table) {
     doubts.push_back(table.sweep.key + ": the end changes more often between " + format_significant(edge.row_before, 6) + " and " +
                      format_significant(edge.row_behind, 6) + " than --edges tells, as at " + format_significant(*edge.contradicted_at, 6) +
                      ": take more rows, or a shorter duration");
+  }
+  return doubts;
+}
+
+// Edges that are those of the duration: what ends in one way well before one ends otherwise where the run is twice as long.
+std::vector<std::string> doubts_of_duration(const FallOptions& options, const FallTable& table) {
+  std::vector<std::string> doubts;
+  std::vector<std::string> overrides = overrides_of(options.common);
+  overrides.push_back("duration=" + format_shortest(2 * table.duration));
+  for (const FallEdge& edge : table.edges) {
+    const double away = kWellBefore * (edge.row_behind - edge.row_before);
+    for (const auto& [value, end] : {std::pair{edge.before - away, edge.from}, {edge.behind + away, edge.to}}) {
+      throw_if_interrupted();
+      const bool is_between = (value - edge.row_before) * (value - edge.row_behind) <= 0 && std::ranges::none_of(table.edges, [&, at = value](const FallEdge& other) {
+        return &other != &edge && (other.before - at) * (other.before - edge.before) < 0;
+      });
+      if (!is_between) continue;
+      Sweep one;
+      one.key = table.sweep.key;
+      one.values = {format_shortest(value) + table.unit_of_edges};
+      try {
+        const FallTable longer = run_fall_table(options.scene, overrides, one, {1, 0}, [](double) { return interrupted(); });
+        const std::string then = end_of(longer, longer.rows.front());
+        if (then == end) continue;
+        doubts.push_back("the edge between '" + edge.from + "' and '" + edge.to + "' is that of the duration: at " + table.sweep.key + " = " + format_significant(value, 4) +
+                         " a run of " + format_quantity(longer.duration, "s") + " ends with '" + then + "', one of " + format_quantity(table.duration, "s") + " with '" + end + "'");
+        break;
+      } catch (const Error&) {
+        throw_if_interrupted();  // a run that cannot be longer says nothing of the edge
+      }
+    }
   }
   return doubts;
 }
@@ -210,6 +242,7 @@ void run_fall(const FallOptions& options) {
   throw_if_interrupted();
   tell_warnings(table.doubts);
   tell_warnings(doubts_of_edges(table));
+  tell_warnings(doubts_of_duration(options, table));
   Json report = report_of(options, table);
   const FigureNumbers numbers{csv_of(options, table), [&] { return report; }};
   for (const std::string& output : options.outputs) write_numbers(output, numbers, options.common.force);

@@ -15,10 +15,10 @@
 namespace chainreel {
 namespace {
 
-// s of the film that words come before their instant, and go after it: those that hold it are true while it stands still, and
-// hardly longer; of others nothing is true before.
-constexpr double kAheadOfPause = 0.1;
-constexpr double kStay = 2;    // s of the film, of those that do not hold it
+// s of the film that words stay behind their instant, before which nothing is true: those that hold it while it stands still, and
+// hardly longer.
+constexpr double kAfterPause = 0.1;
+constexpr double kStay = 2;    // of those that do not hold it
 constexpr double kSame = 1e-9;  // s
 constexpr double kWidest = 0.62;  // of the width of their panel: longer words are broken into lines
 constexpr double kNarrower = 0.96, kNarrowest = 0.3, kLeading = 1.3;  // em from line to line
@@ -120,9 +120,8 @@ class Annotations : public Layer {
 
   bool is_shown(const Note& note, double t) const {
     const double begin = stage_->clock.film_time(note.at), now = stage_->clock.film_time(t);
-    const bool holds = note.entry->hold > 0;
-    const double ahead = holds ? kAheadOfPause : 0, stay = holds ? note.entry->hold + kAheadOfPause : kStay;
-    return now >= begin - ahead - kSame && now <= begin + stay + kSame;
+    const double stay = note.entry->hold > 0 ? note.entry->hold + kAfterPause : kStay;
+    return now >= begin - kSame && now <= begin + stay + kSame;
   }
 
   // What is spoken of, in W.
