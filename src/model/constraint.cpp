@@ -7,7 +7,7 @@ namespace {
 struct NameOf {
   std::string operator()(const LineConstraint& c) const { return "line " + c.frame; }
   std::string operator()(const PlaneConstraint& c) const { return "plane " + c.frame; }
-  std::string operator()(const PointConstraint& c) const { return "point " + c.frame; }
+  std::string operator()(const PointConstraint& c) const { return c.word + (" " + c.frame); }
   std::string operator()(const DistanceConstraint& c) const { return "distance " + c.a + (c.at ? "" : " " + c.b); }
   std::string operator()(const CloseConstraint& c) const { return "close " + c.a + " " + c.b; }
   std::string operator()(const CurveConstraint& c) const { return "curve " + c.frame; }

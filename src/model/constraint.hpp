@@ -30,6 +30,7 @@ struct PlaneConstraint {
 struct PointConstraint {
   std::string frame;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  const char* word = "point";  // what messages call it: "close" of one that closes a loop
 };
 
 // A massless rod with ball joints at both ends.

@@ -127,6 +127,54 @@ TEST_F(SceneConstraints, AStartThatNobodyWroteMayBeFarFromTheOneThatIsTaken) {
   EXPECT_THAT(error("start: {q: [0, 0, 0]}\n" + line), HasSubstr("if it is meant"));
 }
 
+// A crank is where the start says, and turns as fast; the rest of the linkage follows. Oracle: the loop's two equations by hand.
+TEST_F(SceneConstraints, JointsThatAStartDoesNotNameFollow) {
+  const std::string bars = "{links: [0.3, 0.9, 0.7], masses: [0.5, 1.5, 1], joints: RRR}\n";
+  const std::string loop = "constraints: [{close: {a: gripper, at: [0.8, 0]}}]\n";
+  const auto prepared = [&](const std::string& start) {
+    Scene scene = read_scene(folder_.write("bars.yaml", "model: " + bars + start + loop));
+    Simulation simulation = prepare(scene);
+    notices_ = scene.notices;
+    return simulation;
+  };
+  for (const double crank : {0.2, 1.0471975511965976, 2.5, -1.2}) {
+    const Simulation found = prepared("start: {q: {joint1: " + format_shortest(crank) + "}, qd: {joint1: 6}}\n");
+    const std::vector<double>&q = found.q0, &qd = found.qd0;
+    EXPECT_NEAR(q[0], crank, 1e-14);
+    EXPECT_EQ(qd[0], 6);
+    const double lengths[] = {0.3, 0.9, 0.7};
+    double x = -0.8, y = 0, xd = 0, yd = 0, angle = 0, rate = 0;
+    for (int i = 0; i < 3; ++i) {
+      angle += q[std::size_t(i)], rate += qd[std::size_t(i)];
+      x += lengths[i] * std::cos(angle), y += lengths[i] * std::sin(angle);
+      xd -= lengths[i] * rate * std::sin(angle), yd += lengths[i] * rate * std::cos(angle);
+    }
+    EXPECT_LT(std::max(std::abs(x), std::abs(y)), 1e-13) << crank;
+    EXPECT_LT(std::max(std::abs(xd), std::abs(yd)), 1e-12) << crank;
+    EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("the joints that the start does not name follow: q = "),
+                                               HasSubstr("the rates that the start does not name follow: qd = ")));
+  }
+  // What no pose has is refused and nothing else moved; all joints named are a start as any other.
+  try {
+    prepared("start: {q: {joint1: 1, joint2: 0}}\n");
+    FAIL() << "three bars with two angles given do not close there";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("bars.yaml:2:"), HasSubstr("no pose on the constraints was found at which joint1 = 1, joint2 = 0")));
+  }
+  EXPECT_THROW(prepared("start: {q: {joint1: 1, joint2: 0, joint3: 0}}\n"), Error);
+  // The start that a refusal advises is on the constraints, and nothing is said of it.
+  try {
+    prepared("start: {q: [1.0, -0.2, -1.5]}\n");
+    FAIL() << "too far to be meant";
+  } catch (const Error& error) {
+    const std::string text = error.what(), begin = "write `", end = "` if it is meant";
+    const std::size_t at = text.find(begin) + begin.size();
+    prepared(text.substr(at, text.find(end) - at) + "\n");
+    EXPECT_TRUE(notices_.empty()) << notices_.front();
+    EXPECT_THAT(text, HasSubstr("name the joints that are to stand so, `start: {q: {joint1: 1}}`"));
+  }
+}
+
 TEST_F(SceneConstraints, WhatCannotBeReachedIsRefusedWithTheDistance) {
   EXPECT_THAT(
       error(kPenStart + "constraints: [{line: {frame: gripper, point: [0, 3.5], direction: [1, 0]}}]\n"),

@@ -67,13 +67,13 @@ std::vector<Chapter> chapters() {
             .of_model(OfModel::mechanism)}},
       {"Start and drive",
        {Row::section("start", "start: {q: [0, 90deg], qd: [0, 0]}", "the state in which the run begins"),
-        Row("start.q", &Scene::start, &StartState::q, "joint positions, or those of some joints: {elbow: 90deg}")
+        Row("start.q", &Scene::start, &StartState::q, "joint positions, or those of some joints: {elbow: 90deg}; under constraints the others follow")
             .by_joint(&StartState::q, &StartState::q_of_joints)
             .in("rad or m")
             .absent("all at zero")
             .where(is_computed)
             .caption("q(0) = @"),
-        Row("start.qd", &Scene::start, &StartState::qd, "joint rates")
+        Row("start.qd", &Scene::start, &StartState::qd, "joint rates, likewise")
             .by_joint(&StartState::qd, &StartState::qd_of_joints)
             .in("rad/s or m/s")
             .absent("at rest")

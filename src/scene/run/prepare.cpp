@@ -75,6 +75,10 @@ void place_joints(StartState& start, StateNumbers numbers, const std::string& ke
         written[places[i]] = one.written[i];
       }
   }
+  // What is not named may follow where ties want it.
+  std::vector<bool>& named = is_q ? start.is_named_q : start.is_named_qd;
+  if (!of_joints.empty())
+    for (std::size_t i = 0; i < names.size(); ++i) named.push_back(i < values.size() && !std::isnan(values[i]));
   of_joints.clear();
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "core/format.hpp"
 #include "dynamics/constraints/constrained_dynamics.hpp"
@@ -103,6 +104,53 @@ void look_at_contact_forces(Scene& scene, const Simulation& simulation, const Co
   problems.throw_if_any();
 }
 
+// The pose on the constraints at which the joints that the start names stand as it says; nothing where it does not leave any to follow.
+std::optional<std::vector<double>> pose_of_named(const Scene& scene, const Simulation& simulation, const Place& start) {
+  const std::vector<bool>& named = scene.start.is_named_q;
+  const Chain& chain = simulation.chain;
+  if (chain.has_floating || std::ranges::count(named, true) == 0 || std::ranges::count(named, false) == 0) return std::nullopt;
+  std::vector<Constraint> held = simulation.constraints.list;
+  std::string words;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (!named[i]) continue;
+    held.emplace_back(JointConstraint{chain.coordinate_names[i], simulation.q0[i]});
+    words += (words.empty() ? "" : ", ") + chain.coordinate_names[i] + " = " + format_significant(simulation.q0[i], 6);
+  }
+  const ConstraintSet set(chain, std::move(held));
+  FoundPose found = find_pose(chain, set, simulation.q0);
+  if (!found.way.reached)
+    throw Error(ExitCode::bad_input,
+                "no pose on the constraints was found at which " + words + ", as the start says: the nearest leaves '" +
+                    set.row_names()[std::size_t(found.way.worst_row)] + "' " + format_significant(found.way.after, 3) +
+                    " away; give another value, or name where another joint stands, about",
+                start);
+  return std::move(found.q);
+}
+
+// With so many digits that they are on the constraints when they are read back.
+std::string exact_list(const std::vector<double>& values) {
+  std::vector<std::string> words;
+  for (const double value : values) words.push_back(format_significant(value, 12));
+  return joined(words);
+}
+
+// Lets the rates that the start does not name follow those that it names. False where these cannot be kept.
+bool follow_named_rates(const Scene& scene, const ConstraintSet& set, const ConstrainedWorkspace& cws, std::vector<double>& qd) {
+  constexpr double kKept = 1e-9;
+  const std::vector<bool>& named = scene.start.is_named_qd;
+  std::vector<Eigen::Index> free;
+  for (std::size_t i = 0; i < named.size(); ++i)
+    if (!named[i]) free.push_back(Eigen::Index(i));
+  if (free.empty() || free.size() == named.size()) return false;
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(cws.Jc.data(), set.rows(), Eigen::Index(qd.size()));
+  const Eigen::VectorXd off = J * Eigen::Map<const Eigen::VectorXd>(qd.data(), Eigen::Index(qd.size()));
+  const Eigen::MatrixXd of_free = J(Eigen::all, free);
+  const Eigen::VectorXd change = of_free.completeOrthogonalDecomposition().solve(-off);
+  if ((of_free * change + off).norm() > kKept * (1 + off.norm())) return false;
+  for (std::size_t k = 0; k < free.size(); ++k) qd[std::size_t(free[k])] += change[Eigen::Index(k)];
+  return true;
+}
+
 }  // namespace
 
 void prepare_constraints(Scene& scene, Simulation& simulation) {
@@ -113,9 +161,10 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
   ConstrainedWorkspace cws(chain, set);
   Workspace ws(chain);
   std::vector<double> qd = simulation.qd0;
-  auto [way, q] = find_pose(chain, set, simulation.q0);
   const Place start =
       scene.place_of("start.q").line > 0 ? scene.place_of("start.q") : scene.place_of("constraints");
+  const std::optional<std::vector<double>> followed = pose_of_named(scene, simulation, start);
+  auto [way, q] = find_pose(chain, set, followed ? *followed : simulation.q0);
   if (!way.reached) refuse_unreachable(scene, simulation, set, way);
   compute_constraints(chain, ws, set, cws, q, qd);
   if (const int row = reversed_row(ws, set); row >= 0)
@@ -129,15 +178,19 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
   for (std::size_t i = 0; i < q.size(); ++i) moved = std::max(moved, std::fabs(q[i] - simulation.q0[i]));
   // One that nobody wrote may be anywhere.
   const bool is_written = std::any_of(scene.places.begin(), scene.places.end(), [](const auto& one) { return one.first.starts_with("start.q"); });
-  if (moved > kFarthestMove && is_written)
+  if (moved > kFarthestMove && is_written && !followed)
     throw Error(ExitCode::bad_input,
                 "the start is " + format_significant(way.before, 3) + unit + " off '" +
                     set.row_names()[std::size_t(way.worst_row)] +
                     "'; the pose found on the constraints is far from it, by " +
-                    format_significant(moved, 3) + " in a coordinate: write `start: {q: " + bracketed(q) +
-                    "}` if it is meant",
+                    format_significant(moved, 3) + " in a coordinate: write `start: {q: [" + exact_list(q) +
+                    "]}` if it is meant, or name the joints that are to stand so, `start: {q: {" + chain.coordinate_names.front() + ": " +
+                    format_significant(simulation.q0.front(), 6) + "}}`: the others follow",
                 start);
-  const double rate = project_velocities(chain, ws, set, cws, q, qd);
+  if (followed) scene.notices.push_back("the joints that the start does not name follow: q = " + bracketed(q));
+  const bool follow = !scene.start.is_named_qd.empty() && follow_named_rates(scene, set, cws, qd);
+  if (follow) scene.notices.push_back("the rates that the start does not name follow: qd = " + bracketed(qd));
+  const double rate = follow ? 0 : project_velocities(chain, ws, set, cws, q, qd);
   if (way.before > kNoteworthy)
     scene.notices.push_back("the start was " + format_significant(way.before, 3) + unit + " off '" +
                             set.row_names()[std::size_t(way.worst_row)] +

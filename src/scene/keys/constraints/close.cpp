@@ -53,7 +53,7 @@ const ConstraintKind& CloseEntry::kind() {
        {"", ConstraintKey<CloseEntry>::ByHand{read_closure, write_closure, tell_closure}}},
       [](const CloseEntry& form, ConstraintResolver& resolver) -> Constraint {
         if (resolver.ends_at_place(form.b))
-          return PointConstraint{form.a, resolver.place_of(form.b, form.at, "close: 'at'")};
+          return PointConstraint{form.a, resolver.place_of(form.b, form.at, "close: 'at'"), "close"};
         CloseConstraint close{form.a, form.b};
         close.kind = form.closure;
         if (form.closure == Closure::axis && !form.axis.empty())
