@@ -562,5 +562,39 @@ TEST(Sweep, SaysWhatItCannotDoBeforeTheFirstRun) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+// A column over the two keys: the numbers of the table, first axis across, and the size of peaks. Oracle: a falling body by hand.
+TEST(SweepMap, ShowsAColumnOfTheTableOverItsTwoKeys) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("fall.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/pp.urdf\nstart: {q: [0, 0], qd: [0, 0]}\nduration: 1\nmethod: dop853\n"
+                                                      "tolerance: 1e-10\nevents: [{when: \"q2 < -3\", kind: fall, name: down}]\n");
+  const auto swept = [&](const Words& more) {
+    return run_program(with({"sweep", scene, "--over", "gravity.2=-8:-2:4", "--over", "start.qd.1=1:3:3", "--force"}, more));
+  };
+  ASSERT_EQ(swept({"--peaks", "qd", "--map", "qd2", "-o", folder.file("m.png"), "-o", folder.file("m.svg")}).status, 0);
+  EXPECT_TRUE(fs::exists(folder.file("m.csv"))) << "its numbers lie beside it";
+  const Image image = read_png(folder.file("m.png"));
+  EXPECT_EQ(image.width, 1920);
+  const std::string svg = read_whole_file(folder.file("m.svg"));
+  EXPECT_THAT(svg, AllOf(HasSubstr("gravity.2"), HasSubstr("12 runs of 1 s")));
+  // Columns of cells differ, rows do not: gravity alone changes how fast it falls; the largest is at the left.
+  const auto at = [&](double x, double y) {
+    const std::size_t i = (std::size_t(y * image.height) * std::size_t(image.width) + std::size_t(x * image.width)) * 4;
+    return std::array<int, 3>{image.bgra[i], image.bgra[i + 1], image.bgra[i + 2]};
+  };
+  EXPECT_EQ(at(0.1, 0.3), at(0.1, 0.7));
+  EXPECT_NE(at(0.1, 0.5), at(0.7, 0.5));
+  EXPECT_GT(at(0.1, 0.5)[2], at(0.7, 0.5)[2]) << "yellow where it is fastest, violet where it is slowest";
+  // By the first of the peaks where no column is named; what has no number is hatched.
+  ASSERT_EQ(swept({"--map", "down", "-o", folder.file("e.svg"), "-o", folder.file("e.csv")}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("e.svg")), HasSubstr("no value"));
+  EXPECT_THAT(swept({"--map", "qd3", "--peaks", "qd", "-o", folder.file("x.png")}).err, HasSubstr("--map qd3: the table has no such column"));
+  EXPECT_THAT(swept({"-o", folder.file("y.png")}).err, HasSubstr("a map shows one column of the table"));
+  EXPECT_THAT(swept({"--peaks", "qd", "--shard", "1/2", "-o", folder.file("z.png")}).err, HasSubstr("a share of the runs makes no map"));
+  EXPECT_THAT(swept({"--map", "qd1", "-o", folder.file("t.csv")}).err, HasSubstr("--map says what a map shows"));
+  const ProgramResult one = run_program({"sweep", scene, "--over", "gravity.2=-8:-2:4", "--peaks", "qd", "-o", folder.file("one.png")});
+  EXPECT_THAT(one.err, HasSubstr("a map has two axes"));
+  EXPECT_FALSE(fs::exists(folder.file("one.csv")));
+}
+
 }  // namespace
 }  // namespace chainreel

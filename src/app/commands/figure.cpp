@@ -118,6 +118,13 @@ FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual,
   }
 }
 
+void write_figure(const FigureOptions& options, const Picture& picture, const Fonts& fonts, const std::string& path, bool overwrite) {
+  const PixelSize size = size_of(options);
+  ClipMemory memory = memory_of_figure(*options.command, std::filesystem::path(path).stem().string());
+  if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
+  write_picture(picture, size.width, size.height, fonts, path, overwrite, memory);
+}
+
 bool FigureFiles::is_named(const std::string& path) const {
   return std::any_of(paths_.begin(), paths_.end(), [&](const std::string& one) {
     return std::filesystem::path(one).lexically_normal() == std::filesystem::path(path).lexically_normal();
@@ -127,7 +134,6 @@ bool FigureFiles::is_named(const std::string& path) const {
 std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw, const FigureNumbers& numbers, const Fonts& fonts) const {
   std::vector<std::string> written;
   std::optional<Picture> picture;
-  const PixelSize size = size_of(options_);
   for (const std::string& path : paths_) {
     written.push_back(path);
     if (is_table_path(path)) {
@@ -135,9 +141,7 @@ std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw
       continue;
     }
     if (!picture) picture = draw();
-    ClipMemory memory = memory_of_figure(*options_.command, std::filesystem::path(path).stem().string());
-    if (options_.paper.is_given()) memory.width_mm = options_.paper.width_mm;
-    write_picture(*picture, size.width, size.height, fonts, path, overwrite_, memory);
+    write_figure(options_, *picture, fonts, path, overwrite_);
   }
   for (const std::string& table : beside_) {
     write_text_file(table, numbers.csv, overwrite_);

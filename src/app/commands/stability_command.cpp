@@ -11,6 +11,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/map_axes.hpp"
 #include "app/film/progress.hpp"
 #include "app/film/prepared.hpp"
 #include "app/report/report.hpp"
@@ -42,52 +43,6 @@ struct StabilityOptions {
 
 constexpr double kTableSteps[] = {0.1, 0.01, 0.001};
 constexpr double kTableTolerances[] = {1e-3, 1e-6, 1e-9};
-
-// What an axis calls a key: "step [s]", a parameter by its name, q2(0) for start.q.2.
-std::string title_of_key(const std::string& key) {
-  if (key == "step") return "step [s]";
-  for (const std::string prefix : {"parameters.", "start.q.", "start.qd."}) {
-    if (!key.starts_with(prefix)) continue;
-    const std::string rest = key.substr(prefix.size());
-    if (prefix == "parameters.") return rest;
-    return "$" + std::string(prefix == "start.q." ? "q" : "qd") + rest + "(0)$";
-  }
-  return key;
-}
-
-Axis axis_of(const Sweep& sweep) {
-  Axis axis;
-  axis.scale = sweep.logarithmic ? Scale::log : Scale::linear;
-  const auto& v = sweep.numbers;
-  // Cells are centred on their values: half a cell beyond the first and the last.
-  if (sweep.logarithmic) {
-    const double half = std::sqrt(v[1] / v[0]);
-    axis.low = v.front() / half;
-    axis.high = v.back() * half;
-  } else {
-    const double half = 0.5 * (v[1] - v[0]);
-    axis.low = v.front() - half;
-    axis.high = v.back() + half;
-  }
-  axis.title = title_of_key(sweep.key);
-  return axis;
-}
-
-// Cells of one size: rising values at equal distances or factors.
-void check_axis(const Sweep& sweep, const std::string& option) {
-  const auto& v = sweep.numbers;
-  bool good = v.size() >= 2 && !(sweep.logarithmic && v[0] < 0);
-  for (std::size_t k = 1; good && k < v.size(); ++k) {
-    const double even =
-        sweep.logarithmic ? v[0] * std::pow(v[1] / v[0], double(k)) : v[0] + double(k) * (v[1] - v[0]);
-    good = v[k] > v[k - 1] && std::abs(v[k] - even) <= 1e-6 * std::abs(v[k] - v[0]);
-  }
-  if (!good)
-    throw Error(ExitCode::usage,
-                option +
-                    " of a map takes a range of rising numbers: KEY=from:to:count, maybe with "
-                    ":log behind it where they are above 0");
-}
 
 constexpr const char* kTheory = "theory";
 
@@ -139,8 +94,8 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   StabilityMap map;
   map.title = "Where " + method_title(cells.method) + " fails";
   map.subtitle = title_over_runs(scene);
-  map.x = axis_of(cells.x);
-  map.y = axis_of(cells.y);
+  map.x = map_axis(cells.x);
+  map.y = map_axis(cells.y);
   map.nx = int(cells.x.values.size());
   map.ny = int(cells.y.values.size());
   map.error_title = "largest |energy error| [J]";
@@ -216,8 +171,8 @@ std::string usual_map(const StabilityOptions& options) {
 
 void draw_map(const StabilityOptions& options) {
   const Sweep x = parse_sweep(options.x, "--x"), y = parse_sweep(options.y, "--y");
-  check_axis(x, "--x");
-  check_axis(y, "--y");
+  require_map_axis(x, "--x");
+  require_map_axis(y, "--y");
   const FigureFiles files(options.figure, usual_map(options), options.common.force);
   const std::vector<std::string> overrides = overrides_of(options.common);
   const int threads = options.threads > 0 ? options.threads : usable_cores();

@@ -15,6 +15,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/sweep_map.hpp"
 #include "app/commands/sweep_table.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/film/runs.hpp"
@@ -50,7 +51,8 @@ constexpr std::size_t kLongestName = 255 - 16;  // bytes of a file's name, with 
 struct SweepOptions {
   std::string scene;
   std::vector<std::string> over, outputs, each;
-  std::string at = "0", shard, peaks;
+  std::string at = "0", shard, peaks, map;
+  FigureOptions figure;  // of maps
   int jobs = 0;
   CommonOptions common;
 };
@@ -321,7 +323,7 @@ std::string with_suffix(const std::string& path, const std::string& suffix) {
 }
 
 void check_outputs(const SweepOptions& options) {
-  int tables = 0, folders = 0;
+  int tables = 0, folders = 0, maps = 0;
   for (const std::string& output : options.outputs) {
     refuse_dash(output);
     if (is_table_path(output)) {
@@ -330,14 +332,18 @@ void check_outputs(const SweepOptions& options) {
         throw Error(ExitCode::usage, "-o " + output + ": shares of a table are joined as .csv, so that --shard writes them so");
     } else if (fs::path(output).extension().empty() || output.ends_with('/')) {
       ++folders;
+    } else if (is_map_path(output)) {
+      ++maps;
+      if (!options.shard.empty()) throw Error(ExitCode::usage, "-o " + output + ": a share of the runs makes no map: --shard goes with tables and folders");
     } else {
-      throw Error(ExitCode::usage, "-o " + output + ": a sweep writes a table (.csv, .json, .npz), or files into a FOLDER/, as --each says");
+      throw Error(ExitCode::usage, "-o " + output + ": a sweep writes a table (.csv, .json, .npz), a map of it (.png, .svg, .pdf), or files into a FOLDER/, as --each says");
     }
   }
   if (folders > 1) throw Error(ExitCode::usage, "-o takes one folder: --each png --each csv writes several files a run into it");
   if (tables > 1 && !options.shard.empty()) throw Error(ExitCode::usage, "-o: a share of a table is one .csv, and is joined before it becomes others");
   refuse_twice(options.outputs);
-  if (tables == 0 && !options.peaks.empty())
+  if (maps == 0 && !options.map.empty()) throw Error(ExitCode::usage, "--map says what a map shows: name one with -o MAP.png");
+  if (tables + maps == 0 && !options.peaks.empty())
     throw Error(ExitCode::usage, "--peaks says what a table holds: name one with -o TABLE.csv");
   if (folders == 0 && !options.each.empty())
     throw Error(ExitCode::usage, "--each says what runs become in a folder: name it with -o FOLDER/");
@@ -351,11 +357,29 @@ std::vector<std::string> tables_of(const std::vector<std::string>& outputs) {
   return tables;
 }
 
+// The pictures, checked before anything is computed; their table stands beside the first where none is named.
+std::vector<std::string> maps_of(SweepOptions& options) {
+  std::vector<std::string> maps;
+  std::copy_if(options.outputs.begin(), options.outputs.end(), std::back_inserter(maps), is_map_path);
+  for (const std::string& path : maps) const OutputFile allowed(path, options.common.force);
+  if (!maps.empty() && tables_of(options.outputs).empty()) options.outputs.push_back(fs::path(maps.front()).replace_extension(".csv").string());
+  return maps;
+}
+
+void draw_maps(const SweepOptions& options, const Grid& grid, const std::vector<std::string>& maps, const std::string& table) {
+  const Scene scene = read_scene(options.scene, overrides_of(options.common));
+  const Fonts fonts(families_of(scene));
+  const Picture picture = stability_map(sweep_map(grid, scene, table, options.map), chart_look(options.figure, scene, fonts));
+  for (const std::string& path : maps) write_figure(options.figure, picture, fonts, path, options.common.force);
+}
+
 void run_sweep(SweepOptions options) {
   if (options.outputs.empty()) options.outputs.push_back("out/" + fs::path(options.scene).stem().string() + "_sweep.csv");
   check_outputs(options);
   keeps_what_is_finished();
   const Grid grid(options.over, "--over");
+  const std::vector<std::string> maps = maps_of(options);
+  if (!maps.empty()) require_map_grid(grid);
   FrameRange runs{0, int(grid.size())};
   std::string suffix;
   if (!options.shard.empty()) {
@@ -399,9 +423,13 @@ void run_sweep(SweepOptions options) {
     const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, !options.shard.empty(), threads, tables, options.common.force, options.common.quiet, peaks};
     const SweepOutcome outcome = write_sweep_table(job);
     for (const std::string& path : tables) tell(path, outcome);
+    if (!maps.empty()) {
+      draw_maps(options, grid, maps, tables.front());
+      for (const std::string& path : maps) tell(path, outcome);
+    }
   }
   for (const std::string& output : options.outputs)
-    if (!is_table_path(output)) tell(output, FilmsOfGrid(options, grid, runs, output).run());
+    if (!is_table_path(output) && !is_map_path(output)) tell(output, FilmsOfGrid(options, grid, runs, output).run());
   report["failed"] = worst.failed;
   report.update(files_json(written));
   if (options.common.json) print_json(report);
@@ -420,11 +448,14 @@ void add_sweep_command(CommandLine& app) {
                           "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it (repeatable: all combinations)")
       .required();
   command->add_repeatable("-o,--output", options->outputs,
-                          "a .csv, .json or .npz table with a row a run, or a FOLDER/ with files a run (repeatable; default out/NAME_sweep.csv)");
+                          "a .csv, .json or .npz table with a row a run, a .png, .svg or .pdf map of it over two keys, or a FOLDER/ with files a run "
+                          "(repeatable; default out/NAME_sweep.csv)");
   command->add_repeatable("--each", options->each, "what a run becomes in the folder: mp4 (default), png, svg, gif, csv, ..; repeatable");
   command->add_option("--peaks", options->peaks,
                       "qd,tau,energy_error,..: of these the largest of each run, with its sign (the energy's error without it), as columns of the "
                       "table; names as of `simulate --columns`");
+  command->add_option("--map", options->map, "the column that a map shows (default the first of --peaks)");
+  options->figure.command = command;
   command->add_option("--at", options->at, "instant that pictures show, in seconds (default 0)");
   command->add_option("--shard", options->shard, "an equal share of the runs, like 3/8; slurm: that of the array job's task");
   command->add_option("--jobs", options->jobs, "runs beside one another (default: all cores)").range(1, 256);
@@ -436,7 +467,8 @@ void add_sweep_command(CommandLine& app) {
                   "by what auto takes.\n"
                   "A .csv table begins with three lines of facts, `# ..`: pandas.read_csv(file, comment='#'), or numpy.genfromtxt(file,\n"
                   "delimiter=',', names=True, skip_header=3); .npz and .json have none.\n"
-                  "Example: chainreel sweep rr_free --over start.q.1=0:90deg:4 --over gravity.2=-9.81,-1.62 --peaks qd,energy_error -o out/grid.csv");
+                  "Example: chainreel sweep rr_free --over start.q.1=0:90deg:4 --over gravity.2=-9.81,-1.62 --peaks qd,energy_error -o out/grid.csv\n"
+                  "         chainreel sweep rr_free --over start.q.1=0:90deg:10 --over payload.mass=0:5:6 --peaks qd --map qd2 -o out/map.png");
   command->callback([options] { run_sweep(*options); });
 }
 

@@ -19,10 +19,23 @@ constexpr int kBarSteps = 128;
 constexpr double kSwatch = 0.044, kSwatchToText = 0.012;
 constexpr double kHalo = 0.0085, kBoundaryLine = 0.0040;
 constexpr double kLabelPad = 0.010, kLabelDistance = 0.030;
-constexpr const char* kFailed = "failed";
+
+Axis value_axis(const StabilityMap& data) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const MapCell& cell : data.cells) {
+    if (cell.failed || !std::isfinite(cell.error)) continue;
+    low = std::min(low, cell.error);
+    high = std::max(high, cell.error);
+  }
+  if (!(high >= low)) low = 0, high = 1;
+  // All alike: their number is in the middle.
+  if (!(high > low)) low -= std::max(0.1 * std::abs(low), 1e-9), high += std::max(0.1 * std::abs(high), 1e-9);
+  return rounded_out({Scale::linear, low, high, data.error_title});
+}
 
 // Whole decades around the errors of the runs that held.
 Axis error_axis(const StabilityMap& data) {
+  if (data.is_linear) return value_axis(data);
   double low = HUGE_VAL, high = 0;
   for (const MapCell& cell : data.cells) {
     if (cell.failed || !(cell.error > 0) || !std::isfinite(cell.error)) continue;
@@ -41,7 +54,9 @@ Cells cells_of(const StabilityMap& data, const Axis& errors, const Rect& box, co
   Cells cells{box, data.nx, data.ny, {}};
   const double low = std::log10(errors.low), decades = std::log10(errors.high) - low;
   for (const MapCell& cell : data.cells) {
-    const double share = cell.error > 0 ? (std::log10(cell.error) - low) / decades : 0;
+    const double share = data.is_linear   ? (cell.error - errors.low) / (errors.high - errors.low)
+                         : cell.error > 0 ? (std::log10(cell.error) - low) / decades
+                                          : 0;
     cells.colors.push_back(cell.failed ? failed_color(theme) : map_color(share));
   }
   return cells;
@@ -138,32 +153,32 @@ double widest_tick(const Axis& errors, const PlotStyle& style) {
 }
 
 // The bar's title above it, what is hatched below it.
-void draw_legend(Picture& picture, const PlotFrame& map, const Axis& errors, bool any_failed,
+void draw_legend(Picture& picture, const PlotFrame& map, const Axis& errors, const std::string& hatched,
                  const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const double em = style.text(size::kTick), left = map.box.x1 + kBarGap;
   const TextStyle text{Face::label, em, look.theme->ink, Align::left};
   double bottom = map.box.y0;
-  if (any_failed) {
+  if (!hatched.empty()) {
     const Rect swatch = {left, bottom, left + kSwatch, bottom + kSwatch};
     picture.add(Cells{swatch, 1, 1, {failed_color(*look.theme)}});
     draw_hatch(picture, swatch, 1, 1, {true}, look.theme->base);
-    draw_text(picture, lay_out_text(*look.fonts, kFailed, text),
+    draw_text(picture, lay_out_text(*look.fonts, hatched, text),
               {swatch.x1 + kSwatchToText, (swatch.y0 + swatch.y1 - kCapHeight * em) / 2});
     bottom += kSwatch + em;
   }
   draw_color_bar(picture, {left, bottom, left + kBarWidth, map.box.y1}, errors, look);
   const TextStyle title{Face::label, style.text(size::kAxis), look.theme->ink, Align::left};
-  draw_text(picture, lay_out_text(*look.fonts, errors.title, title), {left, map.box.y1 + title_above_frame(look.plot_style())});
+  draw_text(picture, lay_out_words(*look.fonts, errors.title, title), {left, map.box.y1 + title_above_frame(look.plot_style())});
 }
 
-double legend_width(const Axis& errors, const ChartLook& look) {
+double legend_width(const Axis& errors, const std::string& hatched, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const TextStyle text{Face::label, style.text(size::kTick), look.theme->ink, Align::left};
   const TextStyle title{Face::label, style.text(size::kAxis), look.theme->ink, Align::left};
   return kBarGap + std::max({kBarWidth + kBarToLabel + widest_tick(errors, style),
-                             kSwatch + kSwatchToText + lay_out_text(*look.fonts, kFailed, text).advance,
-                             lay_out_text(*look.fonts, errors.title, title).advance});
+                             kSwatch + kSwatchToText + lay_out_text(*look.fonts, hatched, text).advance,
+                             lay_out_words(*look.fonts, errors.title, title).advance});
 }
 
 }  // namespace
@@ -223,7 +238,7 @@ Picture stability_map(const StabilityMap& data, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const Axis errors = error_axis(data);
   const PlotFrame frame =
-      lay_out_plot({area.x0, area.y0, area.x1 - legend_width(errors, look), area.y1}, data.x, data.y, style);
+      lay_out_plot({area.x0, area.y0, area.x1 - legend_width(errors, data.hatched, look), area.y1}, data.x, data.y, style);
   require_room_for_axes(frame, look);
   draw_axes(picture, frame, style);
   picture.add(cells_of(data, errors, frame.box, *look.theme));
@@ -235,7 +250,7 @@ Picture stability_map(const StabilityMap& data, const ChartLook& look) {
     draw_boundary_label(picture, frame, boundary, taken, look);
   const bool any_failed =
       std::any_of(data.cells.begin(), data.cells.end(), [](const MapCell& cell) { return cell.failed; });
-  draw_legend(picture, frame, errors, any_failed, look);
+  draw_legend(picture, frame, errors, any_failed ? data.hatched : "", look);
   return as_page(picture, look);
 }
 

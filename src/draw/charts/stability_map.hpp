@@ -1,5 +1,5 @@
-// Where a method fails: a map over two parameters, coloured by the error of the runs that held and hatched
-// where they failed, with the boundary that theory predicts drawn over it.
+// A map over two parameters, coloured by the error of the runs that held, or another number of theirs, and hatched where they
+// failed; of methods with the boundary that theory predicts drawn over it.
 #pragma once
 
 #include <optional>
@@ -26,6 +26,8 @@ struct StabilityMap {
   int nx = 0, ny = 0;
   std::vector<MapCell> cells;  // nx * ny, row by row from the lower left
   std::string error_title = "final error";
+  bool is_linear = false;  // of numbers that are no errors: an even scale from the least to the largest, with their signs
+  std::string hatched = "failed";  // what the cells are that have no number
   std::vector<MapBoundary> boundaries;
   std::string footer;
 };

@@ -1,0 +1,18 @@
+// Keys of a scene as axes of a map, whose cells are the runs.
+#pragma once
+
+#include <string>
+
+#include "picture/plot.hpp"
+#include "scene/run/sweep.hpp"
+
+namespace chainreel {
+
+// What an axis calls a key: "step [s]", a parameter by its name, q2(0) for start.q.2.
+std::string title_of_key(const std::string& key);
+// Cells are centred on the values: half a cell beyond the first and the last.
+Axis map_axis(const Sweep& sweep);
+// Throws Error (usage) unless its cells are of one size: rising values at equal distances or factors.
+void require_map_axis(const Sweep& sweep, const std::string& option);
+
+}  // namespace chainreel

@@ -1,0 +1,23 @@
+// A column of a sweep's table as a map over its two axes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cli/command.hpp"
+#include "draw/charts/stability_map.hpp"
+#include "scene/run/grid.hpp"
+#include "scene/scene.hpp"
+
+namespace chainreel {
+
+// Whether -o names a picture, which a sweep draws as a map.
+bool is_map_path(const std::string& path);
+// Throws Error (usage) where the grid has not two axes of evenly rising numbers.
+void require_map_grid(const Grid& grid);
+
+// Of the table at `path`, a row each run of the grid. `wanted`: a column's name with or without its peak_, or "": the first of --peaks.
+// Runs that failed, or that have no such number, as of an event that did not come, are hatched. Throws Error (usage) where no column is meant.
+StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& path, const std::string& wanted);
+
+}  // namespace chainreel
