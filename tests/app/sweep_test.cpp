@@ -375,7 +375,7 @@ TEST(SweepFolder, SkipsWhatShowsTheSameSceneAndNothingElse) {
   const std::string film = folder.file("films/rr_free_start.q.1_0.5.mp4");
   const std::string bytes = read_whole_file(film);
   ASSERT_EQ(run_program({"render", kSweptScene, "--quiet", "-o", folder.file("one.mp4"), "--set", "start.q.1=0.5", "--set",
-                         "video.width=64", "--set", "video.height=36", "--set", "duration=0.1"})
+                         "video.width=64", "--set", "video.height=36", "--set", "duration=0.1", "--set", "title=RR without torques: $q1(0)$ = 0.5"})
                 .status,
             0);
   EXPECT_EQ(bytes, read_whole_file(folder.file("one.mp4"))) << "as a render by itself";
@@ -560,6 +560,28 @@ TEST(Sweep, SaysWhatItCannotDoBeforeTheFirstRun) {
   EXPECT_THAT(trouble({"--over", "title=" + std::string(300, 'x') + ",b", "-o", folder.file("f/")}), HasSubstr("names of more than"));
   EXPECT_THAT(trouble({"--over", "nothing=0,1", "-o", folder.file("a.csv")}), HasSubstr("3 "));
   EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+// Pages of a grid show the instant that was asked for, whatever the rate and slow motion of each film, and say which run they are of.
+TEST(SweepFolder, PagesShowTheInstantAndSayTheirRun) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", "title: Falling\nmodel: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nduration: 1\nmethod: rk4\nvideo: {width: 320, height: 180, fps: 30}\n");
+  const std::string out = folder.file("out");
+  ASSERT_EQ(run_program({"sweep", scene, "--over", "start.q.1=0,1", "--over", "payload.mass=1,2", "--each", "svg", "--at", "0.251", "-o", out, "--quiet"}).status, 0);
+  int seen = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(out)) {
+    if (entry.path().extension() != ".svg") continue;
+    ++seen;
+    const std::string svg = read_whole_file(entry.path().string()), name = entry.path().filename().string();
+    EXPECT_THAT(svg, testing::ContainsRegex("t = 0.251? s")) << name;
+    EXPECT_THAT(svg, HasSubstr("payload = " + std::string(name.find("mass_1") != name.npos ? "1" : "2") + " kg")) << name;
+  }
+  EXPECT_EQ(seen, 4);
+  const ProgramResult today = run_program({"check", out, "--today"});
+  EXPECT_EQ(today.status, 0) << today.out;
+  // Who sets a title has it as it is.
+  ASSERT_EQ(run_program({"sweep", scene, "--over", "payload.mass=1,2", "--set", "title=Mine", "--each", "svg", "-o", out, "--quiet"}).status, 0);
+  EXPECT_THAT(read_whole_file(out + "/a_payload.mass_1.svg"), Not(HasSubstr("payload = ")));
 }
 
 // A column over the two keys: the numbers of the table, first axis across, and the size of peaks. Oracle: a falling body by hand.

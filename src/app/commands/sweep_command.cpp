@@ -15,6 +15,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/map_axes.hpp"
 #include "app/commands/sweep_map.hpp"
 #include "app/commands/sweep_table.hpp"
 #include "app/film/house_logo.hpp"
@@ -27,6 +28,7 @@
 #include "app/works/draw_film.hpp"
 #include "app/works/growing_table.hpp"
 #include "app/works/render_film.hpp"
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
@@ -93,6 +95,18 @@ class NamesOfRuns {
     const std::vector<std::size_t> at = grid_.places(run);
     for (std::size_t i = 0; i < at.size(); ++i) name += "_" + grid_.axes()[i].key + "_" + values_[i][at[i]];
     return file_name_of(name);
+  }
+  // "payload = 2 kg, $q1(0)$ = 0.5": what tells a run from the others; parameters stand in titles anyway.
+  std::string words(std::size_t run) const {
+    std::vector<std::string> words;
+    const std::vector<std::size_t> at = grid_.places(run);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const std::string& key = grid_.axes()[i].key;
+      if (key.starts_with("parameters.") || key == "title") continue;
+      const ColumnName title(title_of_key(key));
+      words.push_back(title.name + " = " + values_[i][at[i]] + (title.unit.empty() ? "" : " " + title.unit));
+    }
+    return joined(words);
   }
 
  private:
@@ -274,7 +288,18 @@ class FilmsOfGrid {
   PreparedFilm load(std::size_t run) const {
     std::vector<std::string> overrides = overrides_of(options_.common);
     for (const std::string& setting : grid_.settings(run)) overrides.push_back(setting);
-    return load_film(options_.scene, overrides, true, true);
+    PreparedFilm film = load_film(options_.scene, overrides, true, true);
+    // Pages say which run they are of, as if the title had been set; comparisons have panels that would have to.
+    const std::string words = names_.words(run);
+    if (film.panels.size() > 1 || words.empty() || is_title_set(overrides)) return film;
+    const std::string title = film.scene.title.empty() ? words : film.scene.title + ": " + words;
+    film.scene.set.push_back("title=" + Json(title).dump());
+    film.scene.title = film.panels.front().scene.title = title;
+    return film;
+  }
+
+  static bool is_title_set(const std::vector<std::string>& overrides) {
+    return std::ranges::any_of(overrides, [](const std::string& one) { return one.starts_with("title="); });
   }
 
   // As many as there is memory for, by the first run's pictures.
