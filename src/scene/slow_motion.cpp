@@ -17,6 +17,7 @@ constexpr double kAdded = 2;         // s, up to the motion's own length
 constexpr double kAround = 0.2;             // s of the motion
 constexpr double kAroundOfMotion = 0.1;     // at most: short motions have short events
 constexpr double kEase = 0.5, kApart = 2;   // of `around`
+constexpr double kLeastOfFast = 0.5;        // of all that is fast, where any of it is shown slowly
 constexpr int kHalvings = 50;               // of the end of what is cut
 
 // What is found, widened by what is shown around it.
@@ -72,6 +73,13 @@ class Windows {
   }
 
   const std::vector<Window>& list() const { return list_; }
+  // s of the motion that lie in both.
+  double shared_with(const Windows& others) const {
+    double sum = 0;
+    for (const Window& one : list_)
+      for (const Window& other : others.list_) sum += std::max(0.0, std::min({one.until, other.until, end_}) - std::max({one.from, other.from, 0.0}));
+    return sum;
+  }
 
   std::vector<Stretch> stretches() const {
     std::vector<Stretch> all;
@@ -161,12 +169,14 @@ std::vector<Stretch> stretches_by(const SlowMotionRule& rule, double end, const 
   for (const Haste& one : in_turn) windows.add_where_it_fits({one, around});
   Windows fast(rule, end, around);
   for (const Haste& one : turns) fast.add({one, around});
+  // A crank that turns as fast all along would be seen to speed up where the room ends: rather all of it at its own speed.
+  const Windows without = windows;
   for (const Window& one : fast.list())
     if (!windows.add_where_it_fits(one)) {
       add_beginning(windows, one, around);
       break;
     }
-  return windows.stretches();
+  return (windows.shared_with(fast) < kLeastOfFast * fast.shared_with(fast) ? without : windows).stretches();
 }
 
 }  // namespace chainreel

@@ -113,7 +113,7 @@ Rect place_of_name(const PlotFrame& frame, std::span<const Point> curve, const s
 
 // The image of the unit circle under a symmetric positive matrix, whose eigenvectors are its axes, with the images of the unit vectors as arrows.
 void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d& map, std::array<int, 2> joints,
-                const PlotStyle& style) {
+                bool is_torque, const PlotStyle& style) {
   constexpr int kOnCurve = 96;
   const int clip = int(picture.clips.size());
   picture.clips.push_back(frame.box);
@@ -138,8 +138,9 @@ void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d&
     arrow.v = {unit * map(0, k), unit * map(1, k)};
     arrow.color = style.theme->curve[std::size_t(k)];
     const TextStyle text{Face::math, em, arrow.color, Align::center};
-    const std::string name = "qdd" + std::to_string(joints[std::size_t(k)] + 1);
-    arrow.name = lay_out_math(*style.fonts, name + " = 1", text);
+    // In the space of torques an arrow is a column of M, what the unit of acceleration takes.
+    const std::string number = std::to_string(joints[std::size_t(k)] + 1), name = is_torque ? "M e_{" + number + "}" : "qdd" + number;
+    arrow.name = lay_out_math(*style.fonts, is_torque ? name : name + " = 1", text);
     // Small frames have room for the symbol alone; that it is of unit length is said below the figure.
     if (arrow.name.advance > kWidestLabel * frame.box.width()) arrow.name = lay_out_math(*style.fonts, name, text);
     draw_arrow(picture, center, arrow.v, {arrow.color, std::clamp(frame.box.width() / kFullArrows, 0.5, 1.0), false, 0, style.theme->lines}, clip);
@@ -283,9 +284,9 @@ Picture JointSpaceFigure::draw(const JointSpaceLayout& layout) {
     draw_posture(picture, poses_[i], camera, marks);
     draw_words(picture, i, block.words);
     draw_axes(picture, block.from, style_);
-    draw_image(picture, block.from, Eigen::Matrix2d::Identity(), joints_, style_);
+    draw_image(picture, block.from, Eigen::Matrix2d::Identity(), joints_, false, style_);
     draw_axes(picture, block.to, style_);
-    draw_image(picture, block.to, maps_[i], joints_, style_);
+    draw_image(picture, block.to, maps_[i], joints_, true, style_);
   }
   draw_sheet(picture, sheet_);
   return in_page_units(picture, height_);
