@@ -169,14 +169,15 @@ std::vector<Stretch> stretches_by(const SlowMotionRule& rule, double end, const 
   for (const Haste& one : in_turn) windows.add_where_it_fits({one, around});
   Windows fast(rule, end, around);
   for (const Haste& one : turns) fast.add({one, around});
-  // A crank that turns as fast all along would be seen to speed up where the room ends: rather all of it at its own speed.
+  // A crank that turns as fast all along, from the start on, would be seen to speed up where the room ends: rather all of it at its own speed.
   const Windows without = windows;
   for (const Window& one : fast.list())
     if (!windows.add_where_it_fits(one)) {
       add_beginning(windows, one, around);
       break;
     }
-  return (windows.shared_with(fast) < kLeastOfFast * fast.shared_with(fast) ? without : windows).stretches();
+  const bool begins_fast = !fast.list().empty() && std::ranges::any_of(turns, [](const Haste& one) { return one.from <= 0; });
+  return (begins_fast && windows.shared_with(fast) < kLeastOfFast * fast.shared_with(fast) ? without : windows).stretches();
 }
 
 }  // namespace chainreel

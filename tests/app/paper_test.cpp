@@ -196,7 +196,7 @@ TEST(OnPaper, EllipsesHaveTheirMassesOrSayThatThereIsNoRoom) {
     EXPECT_EQ(result.status, 0);
     return result.err;
   };
-  EXPECT_THAT(told({"--letters"}), testing::AllOf(testing::Not(testing::HasSubstr("masses below")), testing::HasSubstr("the number of one semi-axis has no room")));
+  EXPECT_EQ(told({"--letters"}), "");
   EXPECT_EQ(told({"--letters", "--layout", "row"}), "");
   EXPECT_THAT(told({"--letters", "--layout", "row", "--height-mm", "22"}), testing::HasSubstr("no room for the masses"));
 }

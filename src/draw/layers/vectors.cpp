@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastNamed = 0.02;       // of the widest turn that arcs have: torques of less have no name
+constexpr double kLeastNamed = 0.08;       // of the widest turn that arcs have: arcs of less lie on the disc of their joint, and have no name
 constexpr double kLeastOfOwn = 0.12;       // of the joint's largest torque: of less its arc is a dot far from where its name stands
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer

@@ -359,7 +359,7 @@ TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {
     for (const char* layer : {"torque", "springs", "constraints", "target", "g", "limits"}) EXPECT_TRUE(has(scene, layer)) << name << layer;
     EXPECT_FALSE(has(scene, "angles"));
   }
-  for (const char* name : {"pen_drift", "big_steps", "euler_gains_energy", "ghost_euler"}) {
+  for (const char* name : {"big_steps", "euler_gains_energy", "ghost_euler"}) {
     const Scene scene = read_scene("assets/scenes/" + std::string(name) + ".yaml");
     EXPECT_TRUE(has(scene, "springs") && has(scene, "constraints") && has(scene, "torque")) << name << ": what acts is not shown by half";
     EXPECT_FALSE(has(scene, "target")) << name;

@@ -261,7 +261,9 @@ TEST_F(LayerFilm, WordsOfSmallTorquesStandBesideTheirSmallArcs) {
     return nearest;
   };
   // Off the joint: 0.026 H, half of a head and 0.010 H; of a whole arc 0.058 H and those. The origin of a word is its lower left.
-  EXPECT_LT(way_to_word("0.3"), 0.058 + 0.009 + 0.010 - 0.004);
+  EXPECT_LT(way_to_word("1.2"), 0.058 + 0.009 + 0.010 - 0.004);
+  // An arc within the disc of its joint has no word.
+  EXPECT_GT(way_to_word("0.3"), 0.3) << "that of the other joint";
   EXPECT_GT(way_to_word("9"), 0.058 + 0.009 + 0.010 - 0.004);
 }
 
