@@ -186,6 +186,27 @@ TEST(Sheet, TellsTheProblemsOfAllScenes) {
 }
 
 // A handout: one scene at several instants, at one scale, each with its time; its title, with formulas, above all.
+// Each scene at instants of its own, by its name; the others at their telling ones, without a time.
+TEST(Sheet, ShowsScenesAtInstantsOfTheirOwn) {
+  const TemporaryFolder folder;
+  const auto made = [&](const std::string& at) {
+    return run_program({"sheet", "assets/scenes/rr_free.yaml", "assets/scenes/pen.yaml", "assets/scenes/four_bar.yaml", "--at", at, "--json", "-o", folder.file("a.svg"), "--force"});
+  };
+  const ProgramResult result = made("pen=2.6s,rr_free=1s,rr_free=2s");
+  ASSERT_EQ(result.status, 0) << result.err;
+  std::vector<double> at;
+  for (const Json& cell : Json::parse(result.out)["cells"]) at.push_back(cell["at"].get<double>());
+  ASSERT_EQ(at.size(), 4u);
+  EXPECT_EQ(std::vector<double>(at.begin(), at.begin() + 3), (std::vector<double>{1, 2, 2.6}));
+  const std::string page = read_whole_file(folder.file("a.svg"));
+  EXPECT_THAT(page, testing::AllOf(HasSubstr("t = 2.60 s: Pen at"), HasSubstr("t = 1.00 s: RR without torques"), testing::Not(HasSubstr("s: Four-bar"))));
+  // One for all goes to those that are not named.
+  const Json both = Json::parse(made("0.5,pen=2.6s").out)["cells"];
+  EXPECT_EQ(both[0]["at"], 0.5);
+  EXPECT_EQ(both[1]["at"], 2.6);
+  EXPECT_THAT(made("pan=2.6s").err, HasSubstr("no scene of the sheet is called 'pan': did you mean 'pen'?"));
+}
+
 TEST(Sheet, ShowsOneSceneAtSeveralInstants) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("s.yaml", "title: \"Driven by $tau_1 = 5$ N m\"\nmodel: {links: [0.5, 0.4]}\ntorque: [5, 0]\nduration: 2\nmethod: rk4\n"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <iterator>
 #include <memory>
 
@@ -64,10 +65,33 @@ void set_for_cell(Scene& scene, ThemeName theme, const ContactGrid& grid) {
   scene.annotate.clear();                 // likewise its words, and lines without them lead nowhere
 }
 
-std::vector<AskedInstant> instants_of(const SheetOptions& options) {
-  std::vector<AskedInstant> asked;
+std::string stem_of(const std::string& file) {
+  return std::filesystem::path(file).stem().string();
+}
+
+// Of all scenes, and of some by their names: `--at 0.5,pen=2.6s`.
+struct AskedOfScenes {
+  std::vector<AskedInstant> of_all;
+  std::map<std::string, std::vector<AskedInstant>> of_one;
+
+  const std::vector<AskedInstant>& of(const std::string& file) const {
+    const auto own = of_one.find(stem_of(file));
+    return own == of_one.end() ? of_all : own->second;
+  }
+  std::size_t cells_of(const std::string& file) const { return std::max<std::size_t>(of(file).size(), 1); }
+};
+
+AskedOfScenes instants_of(const SheetOptions& options) {
+  AskedOfScenes asked;
+  std::vector<std::string> names;
+  for (const std::string& file : options.scenes) names.push_back(stem_of(file));
   for (const std::string& text : options.at)
-    for (const std::string& part : parted_instants(text)) asked.push_back(asked_at(part, text));
+    for (const std::string& part : parted_instants(text)) {
+      const NamedText named = named_instant(part);
+      if (!named.name.empty() && std::ranges::count(names, named.name) == 0)
+        throw Error(ExitCode::usage, "--at " + text + ": no scene of the sheet is called '" + named.name + "':" + did_you_mean(named.name, names) + " There are " + joined(names));
+      (named.name.empty() ? asked.of_all : asked.of_one[named.name]).push_back(asked_at(named.text, text));
+    }
   return asked;
 }
 
@@ -104,21 +128,21 @@ struct Page {
   ContactSheetLook look;
   std::size_t count;  // of cells
   ContactGrid grid = contact_grid(int(std::min<std::size_t>(count, kMostCells + 1)), look);
-  const std::vector<AskedInstant>& asked;
+  const AskedOfScenes& asked;
   std::size_t scenes;
 
   // The title of the only scene stands above its instants.
-  bool is_of_one() const { return scenes == 1 && asked.size() > 1; }
+  bool is_of_one() const { return scenes == 1 && count > 1; }
   void set_title(const std::string& title) {
     look.title = title;
     grid = contact_grid(int(count), look);
   }
 };
 
-// Of several instants each says which it is; of several scenes whose.
-std::string title_of_cell(const Moment& moment, const Scene& scene, const Page& page) {
+// Instants that were asked for say which they are; of several scenes whose.
+std::string title_of_cell(const Moment& moment, const Scene& scene, const std::string& file, const Page& page) {
   const std::string title = moment.title.empty() ? scene.name : moment.title;
-  if (page.asked.size() < 2) return title;
+  if (page.asked.of(file).empty() || (page.scenes == 1 && !page.is_of_one())) return title;
   const std::string time = time_text(moment.at);
   return page.scenes == 1 ? time : time + ": " + title;
 }
@@ -126,7 +150,7 @@ std::string title_of_cell(const Moment& moment, const Scene& scene, const Page& 
 // Of one scene at several instants: what its run tells of itself, `{fall}`, stands there, too.
 std::string title_of_run(const PreparedFilm& film, const std::string& file) {
   const std::string title = film.panels.size() == 1 ? title_of(film.panels.front().scene, Runs(film)[0]) : title_of_page(film.scene);
-  return title.empty() ? std::filesystem::path(file).stem().string() : title;
+  return title.empty() ? stem_of(file) : title;
 }
 
 // A cell an instant that is asked for. `told` gets what they show in numbers. A run that is over by then shows its end.
@@ -141,7 +165,7 @@ std::vector<ContactCell> cells_of(const std::string& file, const SheetOptions& o
   if (film.panels.size() > 1 && film.scene.video.panel_names == 0 && !options.common.quiet)
     std::fprintf(stderr, "note: %s: the names of its panels have no room in pictures so small: take fewer --columns, or a sheet of fewer pictures\n", film.scene.name.c_str());
   for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.grid);
-  std::vector<AskedInstant> asked = page.asked;
+  std::vector<AskedInstant> asked = page.asked.of(file);
   for (AskedInstant& one : asked)
     if (one.event.empty()) one.at = std::min(one.at, film.scene.duration);
   Moments moments(film, *page.look.fonts);
@@ -153,7 +177,7 @@ std::vector<ContactCell> cells_of(const std::string& file, const SheetOptions& o
     if (cells.empty()) tell_warnings(moment.warnings);
     told.push_back({{"scene", file}});
     told.back().update(moment.numbers);
-    cells.push_back({std::move(moment.picture), title_of_cell(moment, film.scene, page)});
+    cells.push_back({std::move(moment.picture), title_of_cell(moment, film.scene, file, page)});
   }
   return cells;
 }
@@ -208,8 +232,9 @@ void run_sheet(const SheetOptions& options) {
   const std::vector<std::string> outputs = options.outputs.empty() ? std::vector<std::string>{"out/sheet.png"} : options.outputs;
   for (const std::string& output : outputs) picture_format_of(output);
   refuse_twice(outputs);
-  const std::vector<AskedInstant> asked = instants_of(options);
-  const std::size_t count = options.scenes.size() * std::max<std::size_t>(asked.size(), 1);
+  const AskedOfScenes asked = instants_of(options);
+  std::size_t count = 0;
+  for (const std::string& file : options.scenes) count += asked.cells_of(file);
   const ThemeName theme = theme_of(options.common.flags);
   const Fonts fonts;
   const SheetSize size = size_of(options);
@@ -235,8 +260,8 @@ void add_sheet_command(CommandLine& app) {
       app.add_subcommand("sheet", "several pictures on one page: one of each scene, or one scene at several instants");
   command->add_option("scenes", options->scenes, "scene files, up to 48").required().names_input();
   command->add_repeatable("--at", options->at,
-                   "instants, a picture each: --at 0.2s,1.5s,2.5s or --at \"event touch\"; of a scene that is over by then its end (repeatable; "
-                   "default: the last event of a scene, else its middle)");
+                   "instants, a picture each: --at 0.2s,1.5s,2.5s or --at \"event touch\"; of a scene that is over by then its end; of one scene "
+                   "by its name: --at pen=2.6s (repeatable; default: the last event of a scene, else its middle)");
   command->add_repeatable("-o,--output", options->outputs, "a .png, .svg or .pdf file (repeatable; default out/sheet.png)");
   command->add_option("--title", options->title, "above all, maybe with formulas between dollar signs; default: of one scene at several instants its own");
   command->add_option("--columns", options->columns, "default: as many as make the pictures largest")
@@ -248,6 +273,7 @@ void add_sheet_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer("Example: chainreel sheet rr_free rr_torque pen -o out/sheet.png\n"
+                  "         chainreel sheet rr_free pen --at pen=2.6s,rr_free=1s --width-mm 210 -o out/two.pdf\n"
                   "         chainreel sheet rr_torque --at 0,0.4,0.8,1.2,1.6,2 --width-mm 210 -o out/handout.pdf");
   options->command = command;
   command->callback([options] { run_sheet(*options); });

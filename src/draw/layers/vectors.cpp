@@ -27,6 +27,7 @@ constexpr double kRingRadius = 0.026;     // units of H: close about a joint's d
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
 constexpr double kClearOfJoint = 0.020;   // units of H: arcs of twice that have an edge, those within it none
+constexpr double kLegendArc = 1.3;        // of the arc that most of a film's are smaller than: that of the legend at most
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
 constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
@@ -165,7 +166,8 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
                       : kind == VectorKind::constraint ? ScaleEntry::Mark::dashed_arrow
                                                        : ScaleEntry::Mark::arrow;
     if (!(scale.full > 0)) continue;
-    const double value = round_length(scale.full);
+    // A small arc is hardly more than a head: the number of one that turns a little more than those of the film, rather than of half of them.
+    const double value = round_length((kind == VectorKind::torque ? kLegendArc : 1) * scale.full);
     entries.push_back({mark, scale.on_page(value), color_of(kind, theme),
                        name + format_shortest(value) + "\u2009" + unit_of(kind)});
   }
