@@ -176,9 +176,11 @@ void print_candidates(const Choice& choice, const Accuracy& accuracy, bool all) 
   for (std::size_t i = 0; i < shown; ++i) {
     const Choice::Candidate& one = others[i];
     const bool is_off = one.trouble.empty() && !(one.error <= accuracy.value);
+    const bool has_off_curves = one.trouble.empty() && !is_off && !(one.curve_error && *one.curve_error <= choice.curve_allowed);
+    const std::string curves = "curves beyond " + format_significant(100 * choice.curve_allowed, 2) + " %";
     table.push_back({to_string(one.setting), std::isfinite(one.error) ? format_significant(one.error, 2) : "-",
                      one.curve_error ? format_significant(100 * *one.curve_error, 2) : "-",
-                     (one.trouble.empty() ? "" : "> ") + format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), is_off ? "misses the accuracy" : one.trouble});
+                     (one.trouble.empty() ? "" : "> ") + format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), is_off ? "misses the accuracy" : has_off_curves ? curves : one.trouble});
   }
   if (shown > 0) std::fputs(table_text(table).c_str(), stdout);
   if (shown < others.size()) std::printf("%zu others: --all\n", others.size() - shown);

@@ -65,7 +65,8 @@ std::string methods_page() {
   const SceneKey &step = *find_key("step"), &tolerance = *find_key("tolerance");
   return "# Methods\n\n"
          "`method: auto`, the default, takes the cheapest method and step that keep `accuracy:` at every point that can be\n"
-         "seen, in every frame and halfway between. Any other is named, with a step or a tolerance:\n\n" +
+         "seen, in every frame and halfway between, and curves of rates, torques, energies and multipliers to a like share of their range\n"
+         "(`chainreel check` tells which candidate misses what). Any other is named, with a step or a tolerance:\n\n" +
          code_block("yaml", "method: dop853\ntolerance: 1e-11\n") + "\n" +
          "- `step`, where it is left out: " + step.absent + ".\n- `tolerance`, where it is left out: " + tolerance.absent +
          ".\n- `order` of methods with several, see the table; where it is left out: " + find_key("order")->absent + ".\n\n" + markdown_table(table) + "\nThe units of `accuracy`:\n\n" +

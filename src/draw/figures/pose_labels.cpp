@@ -14,6 +14,7 @@ namespace {
 constexpr int kDirections = 24, kCurvePlaces = 48;
 constexpr double kOff[] = {0.022, 0.04, 0.06, 0.09, 0.13, 0.18, 0.24};  // units of H, from the tip to the name
 constexpr int kRounds = 20;
+constexpr double kBetweenNumbers = 0.8;  // of their height
 constexpr double kAir = 0.010, kTipAir = 0.010;  // units of H, around a name and a tip
 // What a name pays for what it does, inwards from the middle of all tips at most kInward: for a unit it goes 0.1 H farther to
 // avoid it.
@@ -151,7 +152,10 @@ int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, 
   Picture drawn;
   drawn.items.assign(picture.items.begin() + std::ptrdiff_t(first), picture.items.end());
   for (const Obstacle& one : obstacles_of(drawn)) obstacles.push_back(one);
-  WordPlan plan(room, kLooksPerSecond);
+  // Two numbers side by side are two where more than a blank is between them.
+  double between = kBetweenWords;
+  for (const MarkWord& word : others) between = std::max(between, kBetweenNumbers * word.line.box.height());
+  WordPlan plan(room, kLooksPerSecond, between);
   plan.add(others, obstacles);
   const std::vector<StandingWord> standing = plan.standing().front();
   const auto left_out = std::count_if(standing.begin(), standing.end(), [](const StandingWord& word) { return !(word.opacity > 0); });

@@ -134,7 +134,7 @@ std::vector<Rect> places_about(const TextLine& line, Point middle, double off, P
 namespace {
 
 constexpr double kLeaderWidth = 0.0025, kLeaderDot = 0.0055, kLeaderGap = 0.008;  // units of H
-constexpr double kTieWidth = 0.0018, kShortestTie = 0.018, kTieHalo = 0.0012;  // what it crosses stays
+constexpr double kTieWidth = 0.0018, kTieHalo = 0.0012;  // what it crosses stays
 
 // From the side of the box that is nearest.
 void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color background, double opacity, int clip) {
@@ -162,7 +162,7 @@ std::optional<TieLine> line_of(const Tie& tie, const Rect& box) {
   const Rect air = widened(box, kLeaderGap);
   const auto way_from = [&](Point end) { return nearest_in(air, end) - end; };
   const Point end = tie.other_end && norm(way_from(*tie.other_end)) < norm(way_from(tie.to)) ? *tie.other_end : tie.to, way = way_from(end);
-  if (!(norm(way) > tie.near + kShortestTie)) return {};
+  if (!(norm(way) > tie.near + tie.shortest)) return {};
   return TieLine{end + way, end + (tie.near / norm(way)) * way};
 }
 

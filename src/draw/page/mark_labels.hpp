@@ -25,6 +25,7 @@ struct Tie {
   double near = 0;
   Color color;
   std::optional<Point> other_end{};
+  double shortest = 0.018;  // a shorter one is none
 };
 
 struct TieLine {

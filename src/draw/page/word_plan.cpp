@@ -292,7 +292,7 @@ std::vector<std::vector<StandingWord>> WordPlan::standing() const {
         const double never = std::numeric_limits<double>::infinity();
         const Ground ground = now.grounds[std::size_t(p)];
         if (ground == Ground::taken) return never;
-        const Rect box = widened(now.places[std::size_t(p)], kBetweenWords);
+        const Rect box = widened(now.places[std::size_t(p)], between_);
         const bool meets = std::any_of(words[std::size_t(now.frame)].begin(), words[std::size_t(now.frame)].end(),
                             [&](const StandingWord& other) { return other.opacity > 0 && overlap(box, other.box); });
         const double poor = ground == Ground::poor ? kPoorGround : 0;

@@ -33,7 +33,7 @@ inline constexpr double kWordAir = 0.004;
 
 class WordPlan {
  public:
-  WordPlan(const Rect& area, double fps) : area_(area), fps_(fps) {}
+  WordPlan(const Rect& area, double fps, double between = kBetweenWords) : area_(area), fps_(fps), between_(between) {}
 
   // The next frame.
   void add(const std::vector<MarkWord>& words, const std::vector<Obstacle>& obstacles);
@@ -55,7 +55,7 @@ class WordPlan {
   Track& track_of(const MarkWord& word, int frame);
 
   Rect area_;
-  double fps_;
+  double fps_, between_;
   std::vector<int> counts_;  // words of each frame
   std::vector<Track> tracks_;
   std::map<std::string, std::vector<std::size_t>> by_name_;
