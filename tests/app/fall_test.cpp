@@ -104,6 +104,12 @@ TEST(FallCommand, FindsTheValueAtWhichTheEndChanges) {
   EXPECT_THAT(topples.out, HasSubstr("in runs of 0.8 s, between the rows"));
   EXPECT_THAT(topples.err, HasSubstr("is that of the duration: at start.q.1 = "));
   EXPECT_THAT(topples.err, HasSubstr("a run of 1.6 s ends with 'falls'"));
+  // A film of a fall says that its foot is held, where a real one turns; one that stands says nothing of it.
+  const Words small{"--set", "video.width=96", "--set", "video.height=54", "--force", "-o", folder.file("f.gif")};
+  EXPECT_THAT(run_program(with({"render", kHuman}, small)).err, HasSubstr("a real one turns from there on, this one is held"));
+  EXPECT_THAT(read_whole_file(folder.file("f.txt")), HasSubstr("a real one turns from there on, this one is held"));
+  EXPECT_THAT(run_program({"fall", kHuman}).out, HasSubstr("the time of the fall is that of a foot that is held"));
+  EXPECT_THAT(run_program(with({"render", kHuman, "--set", "parameters.k=1200"}, small)).err, Not(HasSubstr("this one is held")));
   // A foot has two edges between these rows: not down any more, and standing.
   const ProgramResult of_human = run_program({"fall", kHuman, "--sweep", "parameters.k=0:1200:2", "--edges", "--json"});
   EXPECT_THAT(of_human.err, Not(HasSubstr("is that of the duration")));

@@ -146,6 +146,9 @@ void print_table(const FallTable& table, const std::string& set, bool searched) 
   for (const EventEntry& event : table.events)
     if (!event.when.empty()) std::printf("%s: when %s\n", event.title().c_str(), event.when.c_str());
   for (const FallEdge& edge : table.edges) std::printf("%s\n", to_words(table, edge).c_str());
+  const auto falls_behind_tipping = [](const FallRow& row) { return row.tips && row.fall_time && *row.tips < *row.fall_time; };
+  if (std::ranges::any_of(table.rows, falls_behind_tipping))
+    std::printf("where the foot tips before the fall, the time of the fall is that of a foot that is held: a real one turns from there on\n");
   if (table.bears && std::any_of(table.rows.begin(), table.rows.end(), [&](const FallRow& row) { return what_became_of(table, row) == FallEnd::tips; }))
     std::printf("behind that this foot stays where a real one turns. At rest it bears %s N m of the ankle over the heel and %s N m over the toe: where the "
                 "ankle's torque goes beyond, cut it there by max(.., min(.., ..)) to see the fall\n",

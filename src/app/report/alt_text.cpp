@@ -12,6 +12,7 @@
 #include "draw/layers/speed_box.hpp"
 #include "picture/formula_words.hpp"
 #include "scene/run/title.hpp"
+#include "scene/run/fall.hpp"
 #include "scene/text/scene_paths.hpp"
 
 namespace chainreel {
@@ -267,7 +268,10 @@ std::string alt_text(const FilmReport& report, const ClipLength& clip) {
   text += speed_words(report) + pause_words(report) + "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n" + constraint_lines(report);
   std::vector<Moment> moments;
   for (const RunReport& run : report.panels) add_events(moments, run, where_of(report, run));
-  for (const RunReport& run : report.panels) add_troubles(moments, run, where_of(report, run));
+  for (const RunReport& run : report.panels) {
+    add_troubles(moments, run, where_of(report, run));
+    if (const auto held = foot_is_held_from(run.prepared.simulation, run.trajectory)) moments.push_back({*held, where_of(report, run) + kFootIsHeld});
+  }
   add_words(moments, report);
   sort_by_time(moments);
   text += moments.empty() ? "What happens: nothing is marked; the motion goes on to its end.\n"

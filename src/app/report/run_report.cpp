@@ -214,6 +214,7 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajector
   if (draws_reactions)
     if (const auto largest = rounding_of(prepared.simulation.chain, reactions_along(prepared.simulation, trajectory)))
       notes.push_back("constraint_force: no arrow, as what the constraints bear is rounding beside the robot's weight, " + format_significant(*largest, 2) + " N at most");
+  if (const auto held = foot_is_held_from(prepared.simulation, trajectory)) notes.push_back("from t = " + format_significant(*held, 4) + " s on " + kFootIsHeld);
   if (!trajectory.trouble.empty() && is_complete(trajectory.status)) notes.push_back("stopped: " + trajectory.trouble);
   return notes;
 }

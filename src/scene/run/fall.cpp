@@ -193,6 +193,21 @@ bool stands(const FallRow& row) {
   return !row.tips && !row.takes_off && !row.fall_time && row.status == RunStatus::finished;
 }
 
+std::optional<double> foot_is_held_from(const Simulation& simulation, const Trajectory& run) {
+  if (!simulation.events || !simulation.events->foot || !simulation.torque) return {};
+  const Foot& foot = *simulation.events->foot;
+  const Chain& chain = simulation.chain;
+  ChainSystem system(simulation);
+  std::vector<double> qdd(std::size_t(chain.nv));
+  Workspace ws(chain);
+  simulation.torque->leave_pieces();
+  for (int k = 0; k < run.size(); ++k) {
+    const GroundLoad load = ground_load(system, ws, ground_axes(chain), foot.height, run.t[std::size_t(k)], run.q_at(k), run.qd_at(k), qdd);
+    if (!(load.grf >= 0) || !(load.cop >= foot.heel && load.cop <= foot.toe)) return run.t[std::size_t(k)];
+  }
+  return {};
+}
+
 FallEnd what_became_of(const FallTable& table, const FallRow& row) {
   if (row.fall_time) return FallEnd::falls;
   if (row.status == RunStatus::stopped) return FallEnd::stopped;

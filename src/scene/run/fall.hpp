@@ -86,6 +86,11 @@ std::string falls_to(const FallRow& row);   // on which side of the foot it lies
 // How a run ended, in words that are the same of runs that ended alike: "falls forwards", "tips over the toe, not down", "stands",
 // "stopped by left", ..
 std::string end_of(const FallTable& table, const FallRow& row);
+// The first sample of a run at which the ground would have to press beside the foot, or pull at it: from there on a real foot turns, and
+// this one is held. Nothing where there is no foot, or it bears all of the run.
+std::optional<double> foot_is_held_from(const Simulation& simulation, const Trajectory& run);
+inline constexpr const char* kFootIsHeld = "the ground would have to press beside the foot, or pull at it: a real one turns from there on, this one is held";
+
 // Never fell, and kept the pressure within the foot.
 bool stands(const FallRow& row);
 // Whether the key's values are two numbers at least, plain or of one unit.
