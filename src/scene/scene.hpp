@@ -40,7 +40,7 @@ struct StartState {
   std::vector<double> qd;  // empty: at rest
   std::vector<JointNumbers> q_of_joints, qd_of_joints;  // until the model is known; not keys
   std::vector<std::string> written_q, written_qd;  // their numbers as they stand in the file; not keys
-  std::vector<bool> is_named_q, is_named_qd;  // of starts by joint: which are named; empty where all are meant; not keys
+  std::vector<std::size_t> named_q, named_qd;  // of starts by joint: which are named, in that order; empty where all are meant; not keys
 };
 
 struct Video {

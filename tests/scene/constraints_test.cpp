@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "dynamics/constraints/constraint_set.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/read_scene.hpp"
@@ -153,6 +156,31 @@ TEST_F(SceneConstraints, JointsThatAStartDoesNotNameFollow) {
     EXPECT_LT(std::max(std::abs(xd), std::abs(yd)), 1e-12) << crank;
     EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("the joints that the start does not name follow: q = "),
                                                HasSubstr("the rates that the start does not name follow: qd = ")));
+  }
+  // The linkage is put together in one way all round: whatever the crank's angle, no other way, no turns, and the next is near.
+  std::optional<std::vector<double>> before;
+  for (int degrees = 0; degrees < 360; degrees += 3) {
+    const std::vector<double> q = prepared("start: {q: {joint1: " + std::to_string(degrees) + "deg}}\n").q0;
+    EXPECT_LT(q[2], 0) << degrees;
+    EXPECT_LE(std::abs(q[1]), std::numbers::pi) << degrees;
+    if (before) {
+      EXPECT_LT(std::abs(std::remainder(q[1] - (*before)[1], 2 * std::numbers::pi)), 0.2) << degrees;
+      EXPECT_LT(std::abs(q[2] - (*before)[2]), 0.2) << degrees;
+    }
+    before = q;
+  }
+  // The other way is had by saying about where another joint stands.
+  const std::vector<double> up = prepared("start: {q: {joint1: 1}}\n").q0;
+  const std::vector<double> other = prepared("start: {q: {joint1: 1, joint3: 120deg}}\n").q0;
+  EXPECT_EQ(other[0], 1);
+  EXPECT_NEAR(other[2], -up[2], 1e-9) << "the mirrored one has the same angle between the bars";
+  // What no constraint touches stays where it is; limits of joints choose, too.
+  Scene geared = read_scene(folder_.write("gear.yaml", "model: {links: [0.3, 0.3, 0.3], joints: RRR}\nstart: {q: {joint1: 60deg}}\n"
+                                                       "constraints: [{linear: {coefficients: {joint1: 1, joint2: -2}, value: 0}}]\n"));
+  EXPECT_EQ(prepare(geared).q0[2], 0);
+  for (const int degrees : {45, 90, 135}) {
+    Scene crank = read_scene(std::string(CHAINREEL_SOURCE_FOLDER) + "/assets/scenes/slider_crank.yaml", {"start={q: {crank_joint: " + std::to_string(degrees) + "deg}}"});
+    EXPECT_GT(prepare(crank).q0[2], 0.4) << degrees << ": the slider is within 0.5 to 1.5 m";
   }
   // What no pose has is refused and nothing else moved; all joints named are a start as any other.
   try {

@@ -73,12 +73,9 @@ void place_joints(StartState& start, StateNumbers numbers, const std::string& ke
           problems.add("'" + key + "' has " + names[places[i]] + " twice: write it once", one.place);
         values[places[i]] = one.values[i];
         written[places[i]] = one.written[i];
+        (is_q ? start.named_q : start.named_qd).push_back(places[i]);  // what is not may follow where ties want it
       }
   }
-  // What is not named may follow where ties want it.
-  std::vector<bool>& named = is_q ? start.is_named_q : start.is_named_qd;
-  if (!of_joints.empty())
-    for (std::size_t i = 0; i < names.size(); ++i) named.push_back(i < values.size() && !std::isnan(values[i]));
   of_joints.clear();
 }
 

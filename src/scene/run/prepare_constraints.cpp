@@ -2,11 +2,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/format.hpp"
 #include "dynamics/constraints/constrained_dynamics.hpp"
 #include "dynamics/constraints/constraint_projection.hpp"
 #include "dynamics/constraints/constraint_rows.hpp"
+#include "dynamics/constraints/followed_pose.hpp"
 #include "dynamics/constraints/pose_search.hpp"
 #include "scene/keys/constraints/kind.hpp"
 #include "scene/run/prepare.hpp"
@@ -104,27 +106,37 @@ void look_at_contact_forces(Scene& scene, const Simulation& simulation, const Co
   problems.throw_if_any();
 }
 
-// The pose on the constraints at which the joints that the start names stand as it says; nothing where it does not leave any to follow.
-std::optional<std::vector<double>> pose_of_named(const Scene& scene, const Simulation& simulation, const Place& start) {
-  const std::vector<bool>& named = scene.start.is_named_q;
+std::string named_words(const Chain& chain, const std::vector<double>& q, std::span<const std::size_t> names) {
+  std::vector<std::string> words;
+  for (const std::size_t i : names) words.push_back(chain.coordinate_names[i] + " = " + format_significant(q[i], 6));
+  return joined(words);
+}
+
+// The pose on the constraints at which the joints that the start names stand as it says; where these are more than the ties leave free the
+// first of them do, and the last ones say about where. Nothing where it names none.
+std::optional<std::vector<double>> pose_of_named(const Scene& scene, const Simulation& simulation, const ConstraintSet& set, const Place& start) {
+  const std::span<const std::size_t> named = scene.start.named_q;
   const Chain& chain = simulation.chain;
-  if (chain.has_floating || std::ranges::count(named, true) == 0 || std::ranges::count(named, false) == 0) return std::nullopt;
-  std::vector<Constraint> held = simulation.constraints.list;
-  std::string words;
-  for (std::size_t i = 0; i < named.size(); ++i) {
-    if (!named[i]) continue;
-    held.emplace_back(JointConstraint{chain.coordinate_names[i], simulation.q0[i]});
-    words += (words.empty() ? "" : ", ") + chain.coordinate_names[i] + " = " + format_significant(simulation.q0[i], 6);
-  }
-  const ConstraintSet set(chain, std::move(held));
-  FoundPose found = find_pose(chain, set, simulation.q0);
-  if (!found.way.reached)
+  if (chain.has_floating || named.empty()) return std::nullopt;
+  FollowedPose nearest;
+  for (std::size_t count = named.size(); count > 0; --count) {
+    std::vector<bool> held(simulation.q0.size(), false);
+    for (const std::size_t i : named.first(count)) held[i] = true;
+    FollowedPose found = followed_pose(chain, set, simulation.q0, held, named.subspan(count));
+    if (count == named.size()) nearest = found;
+    if (!found.is_met) continue;
+    const std::span<const std::size_t> about = named.subspan(count);
+    const bool is_near = std::ranges::all_of(about, [&](std::size_t i) { return std::abs(found.q[i] - simulation.q0[i]) <= kFarthestMove; });
+    if (is_near) return std::move(found.q);
     throw Error(ExitCode::bad_input,
-                "no pose on the constraints was found at which " + words + ", as the start says: the nearest leaves '" +
-                    set.row_names()[std::size_t(found.way.worst_row)] + "' " + format_significant(found.way.after, 3) +
-                    " away; give another value, or name where another joint stands, about",
+                "no pose on the constraints was found at which " + named_words(chain, simulation.q0, named) + ", as the start says: with " +
+                    named_words(chain, simulation.q0, named.first(count)) + " the nearest has " + named_words(chain, found.q, about),
                 start);
-  return std::move(found.q);
+  }
+  throw Error(ExitCode::bad_input,
+              "no pose on the constraints was found at which " + named_words(chain, simulation.q0, named) + ", as the start says: the nearest leaves '" +
+                  set.row_names()[std::size_t(nearest.row)] + "' " + format_significant(nearest.away, 3) + " away",
+              start);
 }
 
 // With so many digits that they are on the constraints when they are read back.
@@ -137,11 +149,11 @@ std::string exact_list(const std::vector<double>& values) {
 // Lets the rates that the start does not name follow those that it names. False where these cannot be kept.
 bool follow_named_rates(const Scene& scene, const ConstraintSet& set, const ConstrainedWorkspace& cws, std::vector<double>& qd) {
   constexpr double kKept = 1e-9;
-  const std::vector<bool>& named = scene.start.is_named_qd;
+  const std::vector<std::size_t>& named = scene.start.named_qd;
   std::vector<Eigen::Index> free;
-  for (std::size_t i = 0; i < named.size(); ++i)
-    if (!named[i]) free.push_back(Eigen::Index(i));
-  if (free.empty() || free.size() == named.size()) return false;
+  for (std::size_t i = 0; i < qd.size(); ++i)
+    if (std::ranges::count(named, i) == 0) free.push_back(Eigen::Index(i));
+  if (free.empty() || named.empty()) return false;
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(cws.Jc.data(), set.rows(), Eigen::Index(qd.size()));
   const Eigen::VectorXd off = J * Eigen::Map<const Eigen::VectorXd>(qd.data(), Eigen::Index(qd.size()));
   const Eigen::MatrixXd of_free = J(Eigen::all, free);
@@ -163,7 +175,7 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
   std::vector<double> qd = simulation.qd0;
   const Place start =
       scene.place_of("start.q").line > 0 ? scene.place_of("start.q") : scene.place_of("constraints");
-  const std::optional<std::vector<double>> followed = pose_of_named(scene, simulation, start);
+  const std::optional<std::vector<double>> followed = pose_of_named(scene, simulation, set, start);
   auto [way, q] = find_pose(chain, set, followed ? *followed : simulation.q0);
   if (!way.reached) refuse_unreachable(scene, simulation, set, way);
   compute_constraints(chain, ws, set, cws, q, qd);
@@ -187,8 +199,8 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                     "]}` if it is meant, or name the joints that are to stand so, `start: {q: {" + chain.coordinate_names.front() + ": " +
                     format_significant(simulation.q0.front(), 6) + "}}`: the others follow",
                 start);
-  if (followed) scene.notices.push_back("the joints that the start does not name follow: q = " + bracketed(q));
-  const bool follow = !scene.start.is_named_qd.empty() && follow_named_rates(scene, set, cws, qd);
+  if (followed && q != simulation.q0) scene.notices.push_back("the joints that the start does not name follow: q = " + bracketed(q));
+  const bool follow = follow_named_rates(scene, set, cws, qd);
   if (follow) scene.notices.push_back("the rates that the start does not name follow: qd = " + bracketed(qd));
   const double rate = follow ? 0 : project_velocities(chain, ws, set, cws, q, qd);
   if (way.before > kNoteworthy)
