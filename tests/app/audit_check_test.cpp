@@ -224,6 +224,19 @@ TEST(FilmOfToday, AsksTablesToo) {
               HasSubstr("--set duration=0.2 -o " + folder.file("docs/a.csv") + " --force"));
   folder.write("rr.urdf", model);
   EXPECT_EQ(run_program({"check", folder.file("docs/a.csv"), "--today"}).status, 0);
+  // Those of a page's panels are made anew by one command, into the same files.
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", folder.file("v/f.csv"), "--vary", "start.q.1=0,1"}).status, 0);
+  EXPECT_EQ(run_program({"check", folder.file("v"), "--today"}).status, 0);
+  folder.write("rr.urdf", heavier);
+  const std::string command = run_program({"check", folder.file("v"), "--today", "--commands"}).out;
+  EXPECT_EQ(std::ranges::count(command, '\n'), 1);
+  EXPECT_THAT(command, HasSubstr("-o " + folder.file("v/f.csv") + " --force"));
+  RunOptions shell;
+  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
+  ASSERT_EQ(run_command({"sh", "-e", "-c", command}, shell).status, 0);
+  EXPECT_EQ(run_program({"check", folder.file("v"), "--today"}).status, 0);
+  EXPECT_FALSE(fs::exists(folder.file("v/f.1.1.csv")));
+  folder.write("rr.urdf", model);
   folder.write("docs/a.csv", read_whole_file(folder.file("docs/a.csv")) + "0\n");
   EXPECT_EQ(run_program({"check", folder.file("docs/a.csv"), "--today"}).status, 1);
 }

@@ -104,6 +104,11 @@ TEST(FallCommand, FindsTheValueAtWhichTheEndChanges) {
   EXPECT_THAT(topples.out, HasSubstr("in runs of 0.8 s, between the rows"));
   EXPECT_THAT(topples.err, HasSubstr("is that of the duration: at start.q.1 = "));
   EXPECT_THAT(topples.err, HasSubstr("a run of 1.6 s ends with 'falls'"));
+  // Rows far apart do not hide it; and of what cannot run longer that is said.
+  const std::string sprung = folder.write("sprung.yaml", "model: {links: [1], masses: [1], joints: R}\nstart: {q: [91deg]}\ntorque: [\"-K * (q1 - 1.5707963)\"]\n"
+                                                         "parameters: {K: 0}\nduration: 3\nmethod: dop853\ntolerance: 1e-10\nevents: [{when: \"abs(q1 - 1.5707963) > 1\", kind: fall, name: over}]\n");
+  EXPECT_THAT(run_program({"fall", sprung, "--sweep", "parameters.K=0:2000:3", "--edges"}).err, HasSubstr("is that of the duration"));
+  EXPECT_THAT(run_program({"fall", slow, "--sweep", "duration=0.2:1:3", "--edges"}).err, Not(HasSubstr("is that of the duration")));
   // A film of a fall says that its foot is held, where a real one turns; one that stands says nothing of it.
   const Words small{"--set", "video.width=96", "--set", "video.height=54", "--force", "-o", folder.file("f.gif")};
   EXPECT_THAT(run_program(with({"render", kHuman}, small)).err, HasSubstr("a real one turns from there on, this one is held"));

@@ -371,11 +371,10 @@ TEST(Outputs, SeveralOfAnotherFilmsNameHaveAuditsOfTheirOwn) {
   EXPECT_THAT(frames.err, HasSubstr("WARNING: " + folder.file("a.json") + " told of " + folder.file("a.mp4")));
 }
 
-TEST(Outputs, StillsShowTheFrameThatIsAskedFor) {
+TEST(Outputs, StillsShowTheInstantThatIsAskedForAsSnapshotsDo) {
   const TemporaryFolder folder;
   ASSERT_EQ(render({"--at", "0.12", "-o", folder.file("a.png"), "-o", folder.file("a_000000.png")}).status,
             0);
-  EXPECT_EQ(read_png(folder.file("a.png")).bgra, read_png(folder.file("a_000003.png")).bgra);
   EXPECT_THAT(render({"--at", "0.3", "-o", folder.file("b.png")}).err,
               HasSubstr("lies outside the duration"));
   // Between frames, and behind the last one: the instant itself, as `snapshot` has it.
@@ -385,7 +384,7 @@ TEST(Outputs, StillsShowTheFrameThatIsAskedFor) {
     EXPECT_EQ(run_program(with(with({command}, scene), {"--at", t, "-o", folder.file("c.png")})).status, 0);
     return read_png(folder.file("c.png")).bgra;
   };
-  for (const char* t : {"0.13", "0.2"}) EXPECT_TRUE(picture("render", t) == picture("snapshot", t)) << t;
+  for (const char* t : {"0.12", "0.13", "0.2"}) EXPECT_TRUE(picture("render", t) == picture("snapshot", t)) << t;
   EXPECT_NE(picture("render", "0.12"), picture("render", "0.13"));
 }
 

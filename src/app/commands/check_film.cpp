@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "app/cli/result.hpp"
 #include "app/cli/shell_word.hpp"
@@ -253,8 +254,13 @@ Today table_of_today(const AskedFilm& asked, const std::string& scene, const Com
   if (found.knows_set) found.command = remaking_command(found, nullptr);
   const Runs runs(film);
   const std::string bytes = read_plain_file(path);
+  // That of a panel, f.2.csv, is made with all others of its page, by -o f.csv.
+  const fs::path stem = fs::path(path).replace_extension();
+  const std::string page = fs::path(stem).replace_extension().string() + fs::path(path).extension().string();
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (bytes == table_bytes(motion_table(film.panels[i].simulation, runs[i]), table_format_of(path))) return found;
+    if (runs.size() > 1 && panel_table_path(page, i, false) == path) std::ranges::replace(found.command, path, page);
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if ((runs.size() == 1 || panel_table_path(page, i, false) == path) && bytes == table_bytes(motion_table(film.panels[i].simulation, runs[i]), table_format_of(path))) return found;
   const Json records = audit.json.is_object() ? audit.json.value(kMechanisms, Json::array()) : Json::array();
   for (std::size_t i = 0; i < std::min(records.size(), film.panels.size()); ++i)
     for (std::string& one : explain_models(records[i], mechanism_record(film.panels[i]))) found.words.push_back(std::move(one));
@@ -394,7 +400,12 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
     for (const Today& one : all) films.push_back(report_of(one));
     return Json{{"films", films}, {"passed_over", asked.passed_over}};
   }, [&] {
-    for (const Today& one : all) as_commands ? print_command(one) : print_today(one);
+    std::set<std::vector<std::string>> told;  // tables of one page are made by one command
+    for (const Today& one : all)
+      if (!as_commands)
+        print_today(one);
+      else if (told.insert(one.command).second)
+        print_command(one);
   });
   std::vector<Problem> troubles, changed;
   for (const Today& one : all) {

@@ -39,7 +39,8 @@ bool has_failed(const FallRow& row) {
 
 // To this share of the distance of rows.
 constexpr double kEdgesTo = 1e-4;
-constexpr double kWellBefore = 0.02;  // of the distance of rows: nearer to an edge any run takes longer to end
+// How far from an edge a longer run is looked at, where near to it any run takes longer to end: of the distance of rows, and of that to the row.
+constexpr double kWellBefore = 0.02, kOfWayToRow = 0.1;
 
 std::string to_words(const FallTable& table, const FallEdge& edge) {
   const double place = (edge.before + edge.behind) / 2, half = std::abs(edge.behind - edge.before) / 2;
@@ -87,9 +88,12 @@ std::vector<std::string> doubts_of_duration(const FallOptions& options, const Fa
   std::vector<std::string> doubts;
   std::vector<std::string> overrides = overrides_of(options.common);
   overrides.push_back("duration=" + format_shortest(2 * table.duration));
+  if (table.sweep.key == "duration") return {};
   for (const FallEdge& edge : table.edges) {
     const double away = kWellBefore * (edge.row_behind - edge.row_before);
-    for (const auto& [value, end] : {std::pair{edge.before - away, edge.from}, {edge.behind + away, edge.to}}) {
+    const double to_before = kOfWayToRow * (edge.before - edge.row_before), to_behind = kOfWayToRow * (edge.row_behind - edge.behind);
+    const double same = std::copysign(std::min(std::abs(to_before), std::abs(to_behind)), away);
+    for (const auto& [value, end] : {std::pair{edge.before - away, edge.from}, {edge.behind + away, edge.to}, {edge.before - same, edge.from}, {edge.behind + same, edge.to}}) {
       throw_if_interrupted();
       const bool is_between = (value - edge.row_before) * (value - edge.row_behind) <= 0 && std::ranges::none_of(table.edges, [&, at = value](const FallEdge& other) {
         return &other != &edge && (other.before - at) * (other.before - edge.before) < 0;
@@ -105,8 +109,11 @@ std::vector<std::string> doubts_of_duration(const FallOptions& options, const Fa
         doubts.push_back("the edge between '" + edge.from + "' and '" + edge.to + "' is that of the duration: at " + table.sweep.key + " = " + format_significant(value, 4) +
                          " a run of " + format_quantity(longer.duration, "s") + " ends with '" + then + "', one of " + format_quantity(table.duration, "s") + " with '" + end + "'");
         break;
-      } catch (const Error&) {
-        throw_if_interrupted();  // a run that cannot be longer says nothing of the edge
+      } catch (const Error& error) {
+        throw_if_interrupted();
+        doubts.push_back("whether the edge between '" + edge.from + "' and '" + edge.to + "' is that of the duration cannot be told, as no run can be longer: " +
+                         error.problems().front().message);
+        break;
       }
     }
   }

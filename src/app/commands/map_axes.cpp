@@ -13,9 +13,16 @@ std::string title_of_key(const std::string& key) {
     if (!key.starts_with(prefix)) continue;
     const std::string rest = key.substr(prefix.size());
     if (prefix == "parameters.") return rest;
-    return "$" + std::string(prefix == "start.q." ? "q" : "qd") + rest + "(0)$";
+    const std::string symbol = prefix == "start.q." ? "q" : "qd";
+    const bool is_number = rest.find_first_not_of("0123456789") == std::string::npos;
+    return is_number ? "$" + symbol + rest + "(0)$" : (symbol == "q" ? "" : "rate of ") + rest + " at t = 0";
   }
   return key;
+}
+
+std::string title_of_axis(const Sweep& sweep) {
+  const std::string title = title_of_key(sweep.key);
+  return sweep.unit.empty() || title.ends_with(']') ? title : title + " [" + sweep.unit + "]";
 }
 
 Axis map_axis(const Sweep& sweep) {
@@ -31,7 +38,7 @@ Axis map_axis(const Sweep& sweep) {
     axis.low = v.front() - half;
     axis.high = v.back() + half;
   }
-  axis.title = title_of_key(sweep.key);
+  axis.title = title_of_axis(sweep);
   return axis;
 }
 

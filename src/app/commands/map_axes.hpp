@@ -10,6 +10,7 @@ namespace chainreel {
 
 // What an axis calls a key: "step [s]", a parameter by its name, q2(0) for start.q.2.
 std::string title_of_key(const std::string& key);
+std::string title_of_axis(const Sweep& sweep);  // with the unit that its range has: "$q1(0)$ [rad]"
 // Cells are centred on the values: half a cell beyond the first and the last.
 Axis map_axis(const Sweep& sweep);
 // Throws Error (usage) unless its cells are of one size: rising values at equal distances or factors.

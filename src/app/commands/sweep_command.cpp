@@ -103,7 +103,7 @@ class NamesOfRuns {
     for (std::size_t i = 0; i < at.size(); ++i) {
       const std::string& key = grid_.axes()[i].key;
       if (key.starts_with("parameters.") || key == "title") continue;
-      const ColumnName title(title_of_key(key));
+      const ColumnName title(title_of_axis(grid_.axes()[i]));
       words.push_back(title.name + " = " + values_[i][at[i]] + (title.unit.empty() ? "" : " " + title.unit));
     }
     return joined(words);

@@ -205,7 +205,7 @@ std::string layers_page() {
          "for 0.3 s has a ring.\n\n"
          "A torque is drawn as a spring or a damper where its own expression says so: `-k * (q1 - a) - d * qd1` with numbers for\n"
          "k, a and d, also of a slider's `y_G`. The spring then stands for its arrow; a damper alone has both, and\n"
-         "beside a constant torque, as in `8 - qd1`, the arrow is that constant alone.\n\n" +
+         "the arc of `8 - qd1`, beside its damper, is the whole torque.\n\n" +
          markdown_table(table) + "\n" + code_block("yaml", draw.example) +
          "\nHow `ellipse` reads the effective mass:\n\n" + meanings_of(*find_key("ellipse.reading")) +
          "\n" + code_block("yaml", find_key("ellipse")->example);

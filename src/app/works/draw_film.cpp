@@ -273,11 +273,9 @@ void Workshop::draw_clip(Output& output, Pen& pen) {
 }
 
 void Workshop::draw_stills(Pen& pen) {
-  const Picture* other = work_.still_picture;
-  const auto picture = [&] { return other != nullptr ? *other : work_.film.still(work_.still); };
-  const auto image = [&] {
-    return other != nullptr ? rasterise(*other, work_.scene.video.width, work_.scene.video.height, work_.fonts) : pen.draw(work_.still);
-  };
+  // As a picture by itself, where words stand that fade in films.
+  const auto picture = [&] { return work_.still_picture != nullptr ? *work_.still_picture : work_.film.still(work_.still); };
+  const auto image = [&] { return rasterise(picture(), work_.scene.video.width, work_.scene.video.height, work_.fonts); };
   ClipMemory memory = work_.memory;
   memory.audit["at"] = work_.still_at;
   for (const Output& output : outputs_)

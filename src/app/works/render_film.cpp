@@ -234,10 +234,12 @@ struct OtherAudits {
 
 // Other files that an audit of ours tells of already stay in it where they show the very same; where they do not, what is told of
 // this one gets a name of its own, or else tells of these alone from now on; either is said.
-OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, RenderResult& result) {
+OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, RenderResult& result, std::size_t panels) {
   OtherAudits audits;
   std::vector<std::string> files;
-  for (const Target& target : job.targets) files.push_back(target.path);
+  for (const Target& target : job.targets)
+    for (std::size_t i = 0; i < (target.format->shows == Shows::table ? panels : 1); ++i)  // a table a panel
+      files.push_back(target.format->shows == Shows::table ? panel_table_path(target.path, i, panels == 1) : target.path);
   std::vector<std::string> paths;
   for (const Sidecar& sidecar : sidecars)
     if (sidecar.what == Sidecar::audit) paths.push_back(sidecar.file->path());
@@ -448,7 +450,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     }
     throw;
   }
-  const OtherAudits others = others_kept(sidecars, job, result);
+  const OtherAudits others = others_kept(sidecars, job, result, film.panels.size());
   tell(report, job, result);
   if (job.tells) tell_warnings(others.lost);
   std::ranges::copy(others.lost, std::back_inserter(result.warnings));

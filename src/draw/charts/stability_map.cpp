@@ -29,7 +29,10 @@ Axis value_axis(const StabilityMap& data) {
   }
   if (!(high >= low)) low = 0, high = 1;
   // All alike: their number is in the middle.
-  if (!(high > low)) low -= std::max(0.1 * std::abs(low), 1e-9), high += std::max(0.1 * std::abs(high), 1e-9);
+  if (!(high > low)) {
+    const double around = low != 0 ? 0.1 * std::abs(low) : 1;
+    low -= around, high += around;
+  }
   return rounded_out({Scale::linear, low, high, data.error_title});
 }
 

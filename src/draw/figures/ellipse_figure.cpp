@@ -56,7 +56,8 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
   MarkLabels labels;
   style.lines = panels.marks;
   int unnamed = 0;
-  if (has_lengths(panels)) style.labels = &labels, style.unnamed = &unnamed;
+  style.unnamed = &unnamed;
+  if (has_lengths(panels)) style.labels = &labels;
   if (!drawing.shapes) style.hole = link_end(drawing.look);
   if (drawing.shapes) style.hides = robot_hides(*drawing.shapes, ws, camera, tip_position(panels.chain, ws));
   const Camera seen = camera.seen_at(tip_position(panels.chain, ws));

@@ -138,9 +138,14 @@ int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, 
                    const Theme& theme, int clip, bool most_or_none) {
   // An axis that fades out of the panel at both ends has its number at one of them, or beside it there.
   std::vector<MarkWord> others;
+  int nobodys = 0;
   const Rect room = widened(scene, -kLabelInset);
   for (MarkWord word : words.words()) {
     const bool is_at_edge = word.name == kLengthAtEdge;
+    if (is_at_edge && most_or_none) {  // at the edge of a picture of several poses nobody sees whose it is
+      ++nobodys;
+      continue;
+    }
     if (is_at_edge)
       for (Rect& place : word.places) place = moved_into(room, place);
     const bool is_other_end = is_at_edge && !others.empty() && others.back().name == kLengthAtEdge && others.back().places.size() == word.places.size();
@@ -161,9 +166,9 @@ int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, 
   const auto left_out = std::count_if(standing.begin(), standing.end(), [](const StandingWord& word) { return !(word.opacity > 0); });
   MarkLabels placed(standing);
   for (MarkWord& word : others) placed.add(std::move(word));
-  if (most_or_none && 2 * left_out > std::ptrdiff_t(standing.size())) return int(standing.size());
+  if (most_or_none && 2 * left_out > std::ptrdiff_t(standing.size())) return int(standing.size()) + (nobodys + 1) / 2;
   placed.draw(picture, scene, theme.background, clip);
-  return int(left_out);
+  return int(left_out) + (nobodys + 1) / 2;  // one at each end of an axis
 }
 
 }  // namespace chainreel

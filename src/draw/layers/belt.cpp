@@ -202,7 +202,10 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
       continue;
     }
     if (!axes[i].mass) continue;
-    draw_length(picture, center, *axes[i].mass * page[i], *axes[i].mass, 0, style, clip);
+    std::vector<Point> others;
+    for (std::size_t k = 0; k < axes.size(); ++k)
+      if (k != i && axes[k].mass && style.unnamed != nullptr) others.push_back(*axes[k].mass * page[k]);
+    draw_length(picture, center, *axes[i].mass * page[i], *axes[i].mass, 0, style, clip, others);
   }
 }
 

@@ -281,7 +281,8 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 
 void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
                  std::span<const Point> others) {
-  if (const double strength = strength_of_length(center, v, style); strength > 0) {
+  const bool has_no_numbers = style.labels == nullptr && style.unnamed != nullptr;  // a figure with panels too small for them
+  if (const double strength = strength_of_length(center, v, style); strength > 0 && !has_no_numbers) {
     const TextLine text = text_of_length(length, strength, style);
     draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
     draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
