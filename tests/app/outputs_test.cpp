@@ -107,7 +107,7 @@ TEST_F(OnePass, ClipsShowTheFramesOfTheSequence) {
       }
     }
   }
-  EXPECT_EQ(read_png(file("f.png")).bgra, first.bgra);
+  EXPECT_LE(compare_pictures(read_png(file("f.png")), first).mean, 1) << "but for words that fade in films";
 }
 
 TEST_F(OnePass, VectorPagesHaveTheirWordsAndTheirPicture) {

@@ -115,11 +115,12 @@ TEST_P(WordsOfEveryScene, LieOnNothingAndDoNotJump) {
   EXPECT_EQ(counts.jumps, 0);
   // The lengths of the ellipse's axes run along the edge of the scene faster than can be read, and so do the joints of
   // rrr_torque, at 20 rad/s. A crank sweeps over every place
-  // about its joint, twice or more a second, and the word of its torque fades out of its way. The end of rr_forces moves at more
+  // about its joint, twice or more a second, and the word of its torque fades out of its way; that of slider_crank is left by its damper hardly
+  // anything twice a turn, too. The end of rr_forces moves at more
   // than 5 m/s in a quarter of the frames, and with it the weight and the velocity that act there.
   const bool has_crank = GetParam() == "four_bar" || GetParam() == "slider_crank";
   if (GetParam() != "rr_ellipse" && GetParam() != "rrr_torque") {
-    const double most = has_crank ? 0.15 : GetParam() == "rr_forces" ? 0.12 : 0.05;
+    const double most = GetParam() == "slider_crank" ? 0.25 : has_crank ? 0.15 : GetParam() == "rr_forces" ? 0.12 : 0.05;
     EXPECT_LE(counts.left_out, most * counts.words);
   }
 }
