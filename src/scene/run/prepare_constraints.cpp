@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -126,7 +127,10 @@ std::optional<std::vector<double>> pose_of_named(const Scene& scene, const Simul
     if (count == named.size()) nearest = found;
     if (!found.is_met) continue;
     const std::span<const std::size_t> about = named.subspan(count);
-    const bool is_near = std::ranges::all_of(about, [&](std::size_t i) { return std::abs(found.q[i] - simulation.q0[i]) <= kFarthestMove; });
+    const bool is_near = std::ranges::all_of(about, [&](std::size_t i) {
+      const double by = found.q[i] - simulation.q0[i];
+      return std::abs(by) <= kFarthestMove || std::abs(std::remainder(by, 2 * std::numbers::pi)) <= kFarthestMove;  // by whole turns
+    });
     if (is_near) return std::move(found.q);
     throw Error(ExitCode::bad_input,
                 "no pose on the constraints was found at which " + named_words(chain, simulation.q0, named) + ", as the start says: with " +
