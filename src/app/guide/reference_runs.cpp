@@ -112,7 +112,8 @@ std::string outputs_page() {
          "Without it, `video.preset` decides.\n\n" +
          table_of("ending", endings) + "\n" + table_of("preset", names_of(Preset{})) + "\n" +
          code_block("yaml", "video: {width: 1280, height: 720, fps: 50, preset: web, crf: 24}\n") +
-         "\nBeside a film lies NAME.json, its audit, and NAME.txt, its words. Where NAME.json tells of another film that is still there,\n"
+         "\nBeside a film lies NAME.json, its audit, and NAME.txt, its words; where events come or words are annotated NAME.srt, too, its captions.\n"
+         "Where NAME.json tells of another film that is still there,\n"
          "x.mp4 beside the new x.gif, the audit of that is x.gif.json. The audit's `outputs` are its files, each with bytes, SHA-256 and,\n"
          "of clips, `frames`, `fps`, `width`, `height` and `film_seconds` of its own. Those on top of the audit are of the first clip that\n"
          "was asked for with -o and that the audit tells of; where that is a GIF or APNG, `drawn` has those of the frames that it was made\n"

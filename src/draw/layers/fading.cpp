@@ -16,6 +16,7 @@ constexpr double kDash = 0.012, kGap = 0.008;
 constexpr double kNumberGaps[] = {0.010, 0.018};        // units of H, beyond the end of a semi-axis
 constexpr double kBesideGaps[] = {0.010, 0.018, 0.03};    // ... beside it, of one that is short
 constexpr double kTieOff = 0.004, kShortTie = 0.008;      // lines of figures end so far from that end, and are no shorter
+constexpr double kTiedNumberGaps[] = {0.05, 0.09, 0.13, 0.18, 0.25};  // ... of figures, with a line from there
 constexpr double kFarNumberGaps[] = {0.05, 0.09, 0.13};  // ... where a robot is in the way
 constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
 constexpr double kOwnByFar = 0.7;                       // of the way to the end of another axis: a number is that of the nearer one
@@ -334,7 +335,7 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
           const Rect place = place_beyond(word.line, center + share * v, gap + style.hole, side * normal_to(unit(v)));
           if (can_stand(place)) word.places.push_back(place);
         }
-    for (const double gap : kFarNumberGaps)
+    for (const double gap : kTiedNumberGaps)
       for (const double side : {1.0, -1.0})
         for (const Rect& place : places_about(word.line, center + side * v, gap, side * unit(v)))
           if (is_within(place, style.scene)) word.places.push_back(place);
