@@ -88,9 +88,9 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return names.empty() ? "" : "'" + joined(names, "', '") + "'";
 }
 
-std::string bracketed(const std::vector<double>& values) {
+std::string bracketed(const std::vector<double>& values, int digits) {
   std::vector<std::string> words;
-  for (const double x : values) words.push_back(format_significant(x, 6));
+  for (const double x : values) words.push_back(format_significant(x, digits));
   return "[" + joined(words) + "]";
 }
 

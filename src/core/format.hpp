@@ -26,7 +26,7 @@ std::string trimmed(const std::string& text);
 // What stands between the signs: "a,,b" is three, nothing none; behind the last sign nothing is counted.
 std::vector<std::string> separated(const std::string& text, char sign);
 std::string quoted_list(const std::vector<std::string>& names);  // 'a', 'b'
-std::string bracketed(const std::vector<double>& values);  // [1, 0.25, -3], six digits
+std::string bracketed(const std::vector<double>& values, int digits = 6);  // [1, 0.25, -3]
 
 // The whole text must be one finite number; leading '+' allowed, nothing else around it.
 std::optional<double> parse_number(std::string_view text);

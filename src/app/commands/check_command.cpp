@@ -153,14 +153,20 @@ void print_model(const Json& model) {
 
 constexpr std::size_t kNextBest = 3;
 
+// "" of a candidate that keeps the accuracy and what that allows of curves.
+std::string what_it_misses(const Choice::Candidate& one, const Choice& choice, const Accuracy& accuracy) {
+  if (!one.trouble.empty()) return one.trouble;
+  if (!(one.error <= accuracy.value)) return "misses the accuracy";
+  if (one.curve_error && *one.curve_error <= choice.curve_allowed) return "";
+  return "curves beyond " + format_significant(100 * choice.curve_allowed, 2) + " %";
+}
+
 // The best first: what keeps the accuracy by its cost, then the others by their errors.
 std::vector<Choice::Candidate> ranked(const Choice& choice, const Accuracy& accuracy) {
   std::vector<Choice::Candidate> all;
   for (const Choice::Candidate& one : choice.tried)
     if (to_string(one.setting) != to_string(choice.best.setting)) all.push_back(one);
-  const auto keeps = [&](const Choice::Candidate& one) {
-    return one.trouble.empty() && one.error <= accuracy.value && one.curve_error && *one.curve_error <= choice.curve_allowed;
-  };
+  const auto keeps = [&](const Choice::Candidate& one) { return what_it_misses(one, choice, accuracy).empty(); };
   std::stable_sort(all.begin(), all.end(), [&](const Choice::Candidate& a, const Choice::Candidate& b) {
     if (keeps(a) != keeps(b)) return keeps(a);
     return keeps(a) ? a.cost < b.cost : a.error < b.error;
@@ -175,12 +181,10 @@ void print_candidates(const Choice& choice, const Accuracy& accuracy, bool all) 
   const std::size_t shown = all ? others.size() : std::min(others.size(), kNextBest);
   for (std::size_t i = 0; i < shown; ++i) {
     const Choice::Candidate& one = others[i];
-    const bool is_off = one.trouble.empty() && !(one.error <= accuracy.value);
-    const bool has_off_curves = one.trouble.empty() && !is_off && !(one.curve_error && *one.curve_error <= choice.curve_allowed);
-    const std::string curves = "curves beyond " + format_significant(100 * choice.curve_allowed, 2) + " %";
     table.push_back({to_string(one.setting), std::isfinite(one.error) ? format_significant(one.error, 2) : "-",
                      one.curve_error ? format_significant(100 * *one.curve_error, 2) : "-",
-                     (one.trouble.empty() ? "" : "> ") + format_significant(one.cost / 1000, 3), std::to_string(one.evaluations), is_off ? "misses the accuracy" : has_off_curves ? curves : one.trouble});
+                     (one.trouble.empty() ? "" : "> ") + format_significant(one.cost / 1000, 3), std::to_string(one.evaluations),
+                     what_it_misses(one, choice, accuracy)});
   }
   if (shown > 0) std::fputs(table_text(table).c_str(), stdout);
   if (shown < others.size()) std::printf("%zu others: --all\n", others.size() - shown);

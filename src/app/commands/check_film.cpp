@@ -244,23 +244,33 @@ bool is_table(const std::string& path) {
   return find_output_format(path, Shows::table) != nullptr;
 }
 
+PreparedFilm film_behind(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
+  return load_film(scene.empty() ? scene_behind(asked.path, asked.audit) : scene, changes_of(asked.audit, common), true, common.quiet);
+}
+
+// `at`: of a picture, its instant.
+void tell_remaking(Today& today, const OwnAudit& audit, const CommonOptions& common, const Json& at) {
+  today.knows_set = audit.json.is_object();
+  today.set = changes_of(audit, common);
+  if (today.knows_set) today.command = remaking_command(today, at);
+}
+
 // A table of `render`: it remembers nothing, and is made again.
 Today table_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const auto& [path, audit] = asked;
-  const PreparedFilm film = load_film(scene.empty() ? scene_behind(path, audit) : scene, changes_of(audit, common), true, common.quiet);
+  const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = path, .scene = film.scene.file};
-  found.knows_set = audit.json.is_object();
-  found.set = changes_of(audit, common);
-  if (found.knows_set) found.command = remaking_command(found, nullptr);
+  tell_remaking(found, audit, common, nullptr);
   const Runs runs(film);
   const std::string bytes = read_plain_file(path);
   // That of a panel, f.2.csv, is made with all others of its page, by -o f.csv.
   const fs::path stem = fs::path(path).replace_extension();
   const std::string page = fs::path(stem).replace_extension().string() + fs::path(path).extension().string();
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    if (runs.size() > 1 && panel_table_path(page, i, false) == path) std::ranges::replace(found.command, path, page);
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    if ((runs.size() == 1 || panel_table_path(page, i, false) == path) && bytes == table_bytes(motion_table(film.panels[i].simulation, runs[i]), table_format_of(path))) return found;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs.size() > 1 && panel_table_path(page, i, false) != path) continue;
+    if (runs.size() > 1) std::ranges::replace(found.command, path, page);
+    if (bytes == table_bytes(motion_table(film.panels[i].simulation, runs[i]), table_format_of(path))) return found;
+  }
   const Json records = audit.json.is_object() ? audit.json.value(kMechanisms, Json::array()) : Json::array();
   for (std::size_t i = 0; i < std::min(records.size(), film.panels.size()); ++i)
     for (std::string& one : explain_models(records[i], mechanism_record(film.panels[i]))) found.words.push_back(std::move(one));
@@ -275,15 +285,13 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   const ClipMemory remembered = recall(path);
   if (!remembered.figure.is_null())
     throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
-  const PreparedFilm film = load_film(scene.empty() ? scene_behind(path, audit) : scene, changes_of(audit, common), true, common.quiet);
+  const PreparedFilm film = film_behind(asked, scene, common);
   std::vector<Today> found;
   for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, audit.json, remembered, memory, film));
   const auto count = [](const Today& one) { return one.words.size() + one.facts.size(); };
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
-  nearest.knows_set = audit.json.is_object();
-  nearest.set = changes_of(audit, common);
-  if (nearest.knows_set) nearest.command = remaking_command(nearest, remembered.audit.value("at", Json()));
+  tell_remaking(nearest, audit, common, remembered.audit.value("at", Json()));
   return nearest;
 }
 

@@ -124,8 +124,6 @@ bool has_sidecars(const Target& target) {
   return is_there(audit) && is_there(fs::path(audit).replace_extension(".txt").string());
 }
 
-constexpr double kSameInstant = 1e-9;  // s
-
 // What a run's files say of themselves, to tell those that are there already.
 class FilesOfRun {
  public:
@@ -143,7 +141,7 @@ class FilesOfRun {
       if (is_cut_off(target.path)) return is_told_of(target);
       const ClipMemory memory = recall(target.path);
       if (memory.scene != scene_ || !is_same(memory.audit)) return false;
-      return target.format->shows != Shows::still || std::abs(memory.audit.value("at", HUGE_VAL) - at_) <= kSameInstant;
+      return target.format->shows != Shows::still || std::abs(memory.audit.value("at", HUGE_VAL) - at_) <= same_instant(film_.panels.front().simulation);
     } catch (const Error&) {
       return false;
     } catch (const Json::exception&) {

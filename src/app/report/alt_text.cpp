@@ -11,8 +11,8 @@
 #include "dynamics/constraints/constraint_rows.hpp"
 #include "draw/layers/speed_box.hpp"
 #include "picture/formula_words.hpp"
-#include "scene/run/title.hpp"
 #include "scene/run/fall.hpp"
+#include "scene/run/title.hpp"
 #include "scene/text/scene_paths.hpp"
 
 namespace chainreel {

@@ -19,10 +19,10 @@
 #include "app/report/motion_table.hpp"
 #include "app/report/version.hpp"
 #include "app/works/draw_film.hpp"
+#include "app/works/moment.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
-#include "app/works/moment.hpp"
 #include "core/output_file.hpp"
 #include "draw/page/house_style.hpp"
 #include "encode/png.hpp"
@@ -86,9 +86,8 @@ void add_own_slow_motion(const FilmReport& report, std::vector<std::string>& not
 
 // The picture of an instant between two frames, where a picture of it is wanted and the run comes so far.
 std::optional<Moment> moment_between(const std::vector<Output>& outputs, const PreparedFilm& film, double frame, double at, const Fonts& fonts) {
-  constexpr double kSame = 1e-9;  // s
   const auto is_still = [](const Output& output) { return output.shows(Shows::still); };
-  if (std::abs(frame - at) <= kSame || std::none_of(outputs.begin(), outputs.end(), is_still)) return std::nullopt;
+  if (std::abs(frame - at) <= same_instant(film.panels.front().simulation) || std::none_of(outputs.begin(), outputs.end(), is_still)) return std::nullopt;
   try {
     return moment_at(film, at, fonts);
   } catch (const Error& error) {
@@ -234,12 +233,13 @@ struct OtherAudits {
 
 // Other files that an audit of ours tells of already stay in it where they show the very same; where they do not, what is told of
 // this one gets a name of its own, or else tells of these alone from now on; either is said.
-OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, RenderResult& result, std::size_t panels) {
+OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, const std::vector<Output>& outputs, RenderResult& result) {
   OtherAudits audits;
   std::vector<std::string> files;
-  for (const Target& target : job.targets)
-    for (std::size_t i = 0; i < (target.format->shows == Shows::table ? panels : 1); ++i)  // a table a panel
-      files.push_back(target.format->shows == Shows::table ? panel_table_path(target.path, i, panels == 1) : target.path);
+  for (const Output& output : outputs) {
+    if (output.files.empty()) files.push_back(output.target.path);
+    for (const std::unique_ptr<OutputFile>& file : output.files) files.push_back(file->path());
+  }
   std::vector<std::string> paths;
   for (const Sidecar& sidecar : sidecars)
     if (sidecar.what == Sidecar::audit) paths.push_back(sidecar.file->path());
@@ -450,7 +450,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     }
     throw;
   }
-  const OtherAudits others = others_kept(sidecars, job, result, film.panels.size());
+  const OtherAudits others = others_kept(sidecars, job, outputs, result);
   tell(report, job, result);
   if (job.tells) tell_warnings(others.lost);
   std::ranges::copy(others.lost, std::back_inserter(result.warnings));

@@ -1,7 +1,6 @@
 #include "draw/layers/vectors.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -189,8 +188,8 @@ VectorPen::VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, 
     : theme_(&theme), fonts_(&fonts), text_scale_(text_scale), scales_(scales) {}
 
 const TextLine& VectorPen::label(const WorldVector& vector, double marks, bool is_cut) const {
-  // An arrow that is cut does not say how large it is.
-  const std::string words = is_cut && !std::isdigit(static_cast<unsigned char>(vector.label.front()))
+  // An arrow that is cut does not say how large it is; that of a push has its size in its name.
+  const std::string words = is_cut && vector.kind != VectorKind::push
                                 ? vector.label + " = " + format_significant(value_of(vector), 2) + " " + unit_of(vector.kind)
                                 : vector.label;
   const auto key = std::tuple{vector.kind, words, marks};

@@ -235,14 +235,18 @@ void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& 
   };
   std::size_t link = 0, rail = 0;
   for (int b = 1; b < int(drawing.chain.bodies.size()); ++b) {
-    const bool is_shown = drawing.shows(b);
     const auto behind = std::size_t(std::find_if(links.begin() + std::ptrdiff_t(link), links.end(), [b](const LinkSegment& one) { return one.body != b; }) - links.begin());
-    if (is_shown && behind == link + 2 && are_plate(drawing, links[link], links[link + 1])) {
+    const bool has_rail = rail < rails.size() && rails[rail].body == b;
+    if (!drawing.shows(b)) {
+      link = behind;
+      rail += has_rail;
+      continue;
+    }
+    if (behind == link + 2 && are_plate(drawing, links[link], links[link + 1])) {
       draw_plate(part_at(0), drawing, ws, links[link], links[link + 1], clip);
       link = behind;
     }
     for (; link < behind; ++link) {
-      if (!is_shown) continue;
       // A link is as far as its farther end, so that the joint where it begins or ends lies above it.
       const Eigen::Isometry3d X_WB = pose_of(ws, b);
       const double depth = std::min(drawing.camera.depth(X_WB * links[link].from),
@@ -250,14 +254,14 @@ void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& 
       draw_link(part_at(depth), drawing, ws, links[link], clip);
     }
     for (const PointMass& point : drawing.chain.point_masses)
-      if (point.body == b && is_shown) draw_point_mass(part_at(drawing.camera.depth(pose_of(ws, b) * point.at)), drawing, ws, point, clip);
+      if (point.body == b) draw_point_mass(part_at(drawing.camera.depth(pose_of(ws, b) * point.at)), drawing, ws, point, clip);
     const Vector3d origin = pose_of(ws, b).translation();
     const Point center = drawing.camera.project(origin);
-    if (drawing.chain.bodies[std::size_t(b)].joint.kind == JointKind::revolute && is_drawable(center) && is_shown) {
+    if (drawing.chain.bodies[std::size_t(b)].joint.kind == JointKind::revolute && is_drawable(center)) {
       draw_revolute(part_at(drawing.camera.depth(origin)), center, drawing.look, clip);
     }
-    if (rail < rails.size() && rails[rail].body == b) {
-      if (!rails[rail].carrier && is_shown) {
+    if (has_rail) {
+      if (!rails[rail].carrier) {
         draw_carriage_of(part_at(drawing.camera.depth(origin)), drawing, ws, rails[rail], clip);
       }
       ++rail;

@@ -79,32 +79,26 @@ class Follower {
   // Newton's method on the free coordinates; of redundant rows, or where several ways lead there, by least squares.
   FollowedPose settle(std::vector<double> q, Eigen::MatrixXd& J) {
     ConstrainedWorkspace cws(chain_, set_);
-    FollowedPose pose;
-    std::vector<double> best = q;
-    pose.away = HUGE_VAL;
+    FollowedPose pose{.q = q, .away = HUGE_VAL};
     for (int pass = 0; pass < kPasses; ++pass) {
       evaluate(cws, q);
       double away = 0;
       int row = 0;
       for (int r = 0; r < set_.rows(); ++r)
         if (!(std::abs(cws.phi[std::size_t(r)]) <= away)) away = std::abs(cws.phi[std::size_t(r)]), row = r;
+      const Eigen::MatrixXd now = Eigen::Map<const Matrix>(cws.Jc.data(), set_.rows(), Eigen::Index(q.size()))(Eigen::all, free_);
       const bool is_better = away < pose.away;
       if (is_better) {
-        best = q;
-        pose.away = away;
-        pose.row = row;
-        J = Eigen::Map<const Matrix>(cws.Jc.data(), set_.rows(), Eigen::Index(q.size()))(Eigen::all, free_);
+        pose = {q, away <= kMet, away, row};
+        J = now;
       }
       if (!std::isfinite(away) || away == 0 || free_.empty() || (away < kSettled && !is_better)) break;
-      const Eigen::MatrixXd now = Eigen::Map<const Matrix>(cws.Jc.data(), set_.rows(), Eigen::Index(q.size()))(Eigen::all, free_);
       Eigen::VectorXd step = now.completeOrthogonalDecomposition().solve(-Eigen::Map<const Eigen::VectorXd>(cws.phi.data(), set_.rows()));
       const double longest = step.cwiseAbs().maxCoeff();
       if (!(longest > 0) || !std::isfinite(longest)) break;
       if (longest > kLongestStep) step *= kLongestStep / longest;
       for (std::size_t f = 0; f < free_.size(); ++f) q[std::size_t(free_[f])] += step[Eigen::Index(f)];
     }
-    pose.q = best;
-    pose.is_met = pose.away <= kMet;
     return pose;
   }
 

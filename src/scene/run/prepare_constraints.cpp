@@ -22,6 +22,7 @@ namespace {
 constexpr double kFarthestMove = 0.5;  // of a coordinate, rad or m
 // Less is the rounding of a start that was written with all its digits.
 constexpr double kNoteworthy = 1e-9;  // m or rad, and per second
+constexpr int kDigitsReadBack = 12;  // of a pose that is on the constraints when it is read back
 // What is left of a way to a stretched chain is of order two: where this is left, half of all digits of q are right.
 constexpr double kEndOfReach = 1e-6;  // m or rad
 // A share of a force: less than it is the rounding of a direction.
@@ -143,13 +144,6 @@ std::optional<std::vector<double>> pose_of_named(const Scene& scene, const Simul
               start);
 }
 
-// With so many digits that they are on the constraints when they are read back.
-std::string exact_list(const std::vector<double>& values) {
-  std::vector<std::string> words;
-  for (const double value : values) words.push_back(format_significant(value, 12));
-  return joined(words);
-}
-
 // Lets the rates that the start does not name follow those that it names. False where these cannot be kept.
 bool follow_named_rates(const Scene& scene, const ConstraintSet& set, const ConstrainedWorkspace& cws, std::vector<double>& qd) {
   constexpr double kKept = 1e-9;
@@ -199,8 +193,8 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                 "the start is " + format_significant(way.before, 3) + unit + " off '" +
                     set.row_names()[std::size_t(way.worst_row)] +
                     "'; the pose found on the constraints is far from it, by " +
-                    format_significant(moved, 3) + " in a coordinate: write `start: {q: [" + exact_list(q) +
-                    "]}` if it is meant, or name the joints that are to stand so, `start: {q: {" + chain.coordinate_names.front() + ": " +
+                    format_significant(moved, 3) + " in a coordinate: write `start: {q: " + bracketed(q, kDigitsReadBack) +
+                    "}` if it is meant, or name the joints that are to stand so, `start: {q: {" + chain.coordinate_names.front() + ": " +
                     format_significant(simulation.q0.front(), 6) + "}}`: the others follow",
                 start);
   if (followed && q != simulation.q0) scene.notices.push_back("the joints that the start does not name follow: q = " + bracketed(q));
