@@ -20,9 +20,11 @@ namespace {
 constexpr double kAfterPause = 0.1;
 constexpr double kStay = 2;    // of those that do not hold it
 constexpr double kSame = 1e-9;  // s
-constexpr double kWidest = 0.62;  // of the width of their panel: longer words are broken into lines
+// Of the width of their panel: longer words are broken into lines, the fewer the better.
+constexpr double kWidths[] = {0.62, 0.42, 0.28};
 constexpr double kNarrower = 0.96, kNarrowest = 0.3, kLeading = 1.3;  // em from line to line
 constexpr double kFarPlaces[] = {0.09, 0.14, 0.20, 0.28};  // of words from what they speak of, units of H
+constexpr int kAnywhere = 5;  // columns, and rows, of places all over the panel, for where there is no room near
 
 // Adds a line's ink at a place.
 void append(TextLine& line, const TextLine& piece, Point at) {
@@ -135,15 +137,7 @@ class Annotations : public Layer {
   void add_words(const Note& note, const Shot& shot) const {
     const Panel& panel = shot.panel;
     const Rect& area = panel.area();
-    const double widest = kWidest * area.width();
-    const TextLine line =
-        note.line.box.width() > widest ? lay_out_within(stage_->fonts, note.entry->text, style(), widest) : note.line;
-    if (line.box.width() > area.width() || line.box.height() > area.height())
-      throw Error(ExitCode::bad_input,
-                  "'annotate." + std::to_string(note.number) + ".text' has no room in its panel" +
-                      (line.box.width() > area.width() ? ", one word of it being wider" : "") +
-                      ": shorten it, or take a smaller text_scale, or a layout that leaves more room beside plots",
-                  note.entry->place);
+    const std::vector<TextLine> shapes = shapes_of(note, area);
     const Point now = panel.camera().project(point_of(*note.entry, panel, shot.ws));
     // Where the words stand is decided by the instant that they are about.
     const auto& times = stage_->times;
@@ -156,11 +150,53 @@ class Annotations : public Layer {
     require_in_picture(note, panel, then);
     const Point inward = center_of(area) - then;
     const Point first = norm(inward) > 0.05 ? unit(inward) : unit({1, 1});
+    shot.labels.add({"annotation " + std::to_string(note.number), shapes.front(), places_of(shapes, area, then, first),
+                     Leader{now, stage_->theme.ink}, std::nullopt, {shapes.begin() + 1, shapes.end()}});
+  }
+
+  // The words on one line where it is short enough, and on more: those that the panel has room for.
+  std::vector<TextLine> shapes_of(const Note& note, const Rect& area) const {
+    const auto has_room = [&area](const TextLine& line) {
+      return line.box.width() <= area.width() && line.box.height() <= area.height();
+    };
+    std::vector<TextLine> shapes;
+    const double widest = note.line.box.width();
+    if (widest <= kWidths[0] * area.width()) shapes.push_back(note.line);
+    for (const double share : kWidths) {
+      if (widest <= share * area.width() && !shapes.empty()) continue;
+      TextLine line = lay_out_within(stage_->fonts, note.entry->text, style(), share * area.width());
+      if (!shapes.empty() && (line.box.width() >= shapes.back().box.width() || !has_room(line))) continue;
+      shapes.push_back(std::move(line));
+    }
+    const TextLine& first = shapes.front();
+    if (!has_room(first))
+      throw Error(ExitCode::bad_input,
+                  "'annotate." + std::to_string(note.number) + ".text' has no room in its panel" +
+                      (first.box.width() > area.width() ? ", one word of it being wider" : "") +
+                      ": shorten it, or take a smaller text_scale, or a layout that leaves more room beside plots",
+                  note.entry->place);
+    return shapes;
+  }
+
+  // Near what they speak of in each shape, then farther off, then anywhere.
+  static std::vector<Rect> places_of(const std::vector<TextLine>& shapes, const Rect& area, Point then, Point first) {
     std::vector<Rect> places;
     for (const double off : kFarPlaces)
-      for (const Rect& place : places_about(line, then, off, first)) places.push_back(moved_into(area, place));
-    shot.labels.add({"annotation " + std::to_string(note.number), line, std::move(places),
-                     Leader{now, stage_->theme.ink}});
+      for (const TextLine& shape : shapes)
+        for (const Rect& place : places_about(shape, then, off, first)) places.push_back(moved_into(area, place));
+    const auto near = std::ptrdiff_t(places.size());
+    for (const TextLine& shape : shapes) {
+      const double width = shape.box.width(), height = shape.box.height();
+      for (int k = 0; k < kAnywhere * kAnywhere; ++k) {
+        const double x = area.x0 + (area.width() - width) * (k % kAnywhere) / (kAnywhere - 1);
+        const double y = area.y0 + (area.height() - height) * (k / kAnywhere) / (kAnywhere - 1);
+        places.push_back({x, y, x + width, y + height});
+      }
+    }
+    std::stable_sort(places.begin() + near, places.end(), [then](const Rect& a, const Rect& b) {
+      return norm(nearest_in(a, then) - then) < norm(nearest_in(b, then) - then);
+    });
+    return places;
   }
 
   // A fixed point beyond the picture has no line that leads to it; what moves may leave the picture.

@@ -134,7 +134,7 @@ std::vector<Rect> places_about(const TextLine& line, Point middle, double off, P
 namespace {
 
 constexpr double kLeaderWidth = 0.0025, kLeaderDot = 0.0055, kLeaderGap = 0.008;  // units of H
-constexpr double kTieWidth = 0.0018, kTieHalo = 0.0012;  // what it crosses stays
+constexpr double kTieWidth = 0.0018, kTieHalo = 0.0012;  // what lines cross stays
 
 // From the side of the box that is nearest.
 void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color background, double opacity, int clip) {
@@ -142,7 +142,7 @@ void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color 
   const Point from{std::clamp(leader.to.x, air.x0, air.x1), std::clamp(leader.to.y, air.y0, air.y1)};
   const Color color = leader.color.faded(opacity), halo = background.faded(opacity);
   if (norm(leader.to - from) > kLeaderDot) {
-    picture.add(Capsule{from, leader.to, kLeaderWidth / 2 + kHalo, {halo, {}, 0}}, clip);
+    picture.add(Capsule{from, leader.to, kLeaderWidth / 2 + kTieHalo, {halo, {}, 0}}, clip);
     picture.add(Capsule{from, leader.to, kLeaderWidth / 2, {color, {}, 0}}, clip);
   }
   picture.add(Ellipse{leader.to, {kLeaderDot, 0}, {0, kLeaderDot}, {color, halo, kHalo}}, clip);
@@ -164,6 +164,16 @@ std::optional<TieLine> line_of(const Tie& tie, const Rect& box) {
   const Point end = tie.other_end && norm(way_from(*tie.other_end)) < norm(way_from(tie.to)) ? *tie.other_end : tie.to, way = way_from(end);
   if (!(norm(way) > tie.near + tie.shortest)) return {};
   return TieLine{end + way, end + (tie.near / norm(way)) * way};
+}
+
+const TextLine& MarkWord::shape_for(const Rect& box) const {
+  const auto unlike = [&box](const TextLine& shape) {
+    return std::abs(shape.box.width() - box.width()) + std::abs(shape.box.height() - box.height());
+  };
+  const TextLine* best = &line;
+  for (const TextLine& shape : other_shapes)
+    if (unlike(shape) < unlike(*best)) best = &shape;
+  return *best;
 }
 
 void MarkLabels::add(MarkWord word) {
@@ -188,7 +198,7 @@ void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int 
   for (std::size_t i = 0; i < words_.size(); ++i) {
     const auto& [box, opacity] = standing[i];
     if (!(opacity > 0)) continue;
-    TextLine line = words_[i].line;
+    TextLine line = words_[i].shape_for(box);
     fade(line, opacity);
     const Point anchor{box.x0 - line.box.x0, box.y0 - line.box.y0};
     if (words_[i].leader) draw_leader(picture, *words_[i].leader, box, background, opacity, clip);

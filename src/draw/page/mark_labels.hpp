@@ -40,6 +40,10 @@ struct MarkWord {
   std::vector<Rect> places;  // of its ink, units of H, the best first; at least one
   std::optional<Leader> leader = std::nullopt;  // its word was asked for: it stands on others rather than nowhere
   std::optional<Tie> tie = std::nullopt;
+  std::vector<TextLine> other_shapes{};  // the same words on more lines: for the places of their size
+
+  // What stands in such a box.
+  const TextLine& shape_for(const Rect& box) const;
 };
 
 // Places of a line's ink about a point, `off` away from it: eight directions, `first` of them, the next ones beside it,
