@@ -27,10 +27,12 @@ ProgramResult sweep(const std::string& output, const Words& more = kGrid, const 
   return run_program(with({"sweep", kSweptScene, "-o", output}, more), options);
 }
 
+// But for a last one that is the hash of all above it.
 std::vector<std::string> lines_of(const std::string& path) {
   std::istringstream stream(read_whole_file(path));
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  if (!lines.empty() && lines.back().starts_with("# sha256: ")) lines.pop_back();
   return lines;
 }
 
@@ -248,7 +250,7 @@ TEST(SweepTable, GoesOnBehindTheLastWholeRow) {
   const std::string whole = read_whole_file(folder.file("a.csv"));
   EXPECT_THAT(sweep(folder.file("a.csv")).out, HasSubstr("8 of them done before")) << "nothing is to be forced";
   // As a run leaves it that was killed within a row; those that are there are taken, which a forged one shows.
-  std::string left = whole.substr(0, whole.size() - 120);
+  std::string left = whole.substr(0, whole.rfind("# sha256") - 20);
   const std::size_t forged = left.find("\n1,");
   left[left.find("finished", forged)] = 'F';
   fs::remove(folder.file("a.csv"));
@@ -256,7 +258,8 @@ TEST(SweepTable, GoesOnBehindTheLastWholeRow) {
   ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
   std::string expected = whole;
   expected[expected.find("finished", forged)] = 'F';
-  EXPECT_EQ(read_whole_file(folder.file("a.csv")), expected);
+  const auto without_hash = [](const std::string& table) { return table.substr(0, table.rfind("# sha256")); };
+  EXPECT_EQ(without_hash(read_whole_file(folder.file("a.csv"))), without_hash(expected));
   // Rows of another sweep are not, nor is a table of another one replaced.
   const Words other = with(kGrid, {"--set", "torque=[0, 1]"});
   EXPECT_EQ(sweep(folder.file("a.csv"), other).status, 6);
@@ -506,6 +509,22 @@ TEST(SweepTable, IsFinishedWhereItHasAllItsRows) {
   EXPECT_EQ(sweep(folder.file("a.csv")).status, 6) << "somebody's, now";
   EXPECT_EQ(sweep(folder.file("a.csv"), with(kGrid, {"--force"})).status, 0);
   EXPECT_EQ(read_whole_file(folder.file("a.csv")), whole);
+}
+
+TEST(SweepTable, ThatWasChangedByHandIsNotTakenForItsOwn) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
+  const std::string whole = read_whole_file(folder.file("a.csv"));
+  EXPECT_THAT(sweep(folder.file("a.csv")).out, HasSubstr("done before"));
+  for (const std::string& changed : {std::string(whole).replace(whole.find("finished") + 9, 3, "0.1"), whole.substr(0, whole.rfind("# sha256"))}) {
+    folder.write("a.csv", changed);
+    const ProgramResult refused = sweep(folder.file("a.csv"));
+    EXPECT_EQ(refused.status, 3);
+    EXPECT_THAT(refused.err, HasSubstr("a.csv: has been changed or cut off since it was written: compute it again, with --force"));
+    EXPECT_EQ(read_whole_file(folder.file("a.csv")), changed);
+    EXPECT_EQ(sweep(folder.file("a.csv"), with(kGrid, {"--force"})).status, 0);
+    EXPECT_EQ(read_whole_file(folder.file("a.csv")), whole);
+  }
 }
 
 TEST(SweepTable, PartsThatLostTheirEndOrAreMixedUpAreNotJoined) {

@@ -443,7 +443,7 @@ void run_sweep(SweepOptions options) {
   // Tables first: they depend on the files that were read up to there, which must be the same for all shares.
   if (std::vector<std::string> tables = tables_of(options.outputs); !tables.empty()) {
     tables.front() = with_suffix(tables.front(), suffix);
-    const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, !options.shard.empty(), threads, tables, options.common.force, options.common.quiet, peaks};
+    const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, tables, options.common.force, options.common.quiet, peaks};
     const SweepOutcome outcome = write_sweep_table(job);
     for (const std::string& path : tables) tell(path, outcome);
     if (!maps.empty()) {

@@ -347,9 +347,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
       };
     });
     const TableFormat format = table_format_of(path);
-    if (job.is_part)
-      table.commit_with_hash();
-    else if (format == TableFormat::csv)
+    if (format == TableFormat::csv)
       table.commit();
     else
       table.commit([&](const std::string& csv) {
@@ -432,6 +430,8 @@ void join_tables(const std::vector<std::string>& paths, const std::string& path,
     if (run != part.runs.behind || !ends)
       throw Error(ExitCode::bad_input, "does not hold the rows that it tells of", {part.path});
   }
+  out.flush();
+  out << line_of_hash(output.temporary_path());
   out.close();
   if (!out) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {path});
   output.commit();

@@ -16,7 +16,6 @@ struct SweepTableJob {
   std::vector<std::string> overrides;
   const Grid& grid;
   FrameRange runs;  // those of the grid that are asked for
-  bool is_part = false;  // by --shard, to be joined
   int threads = 1;
   std::vector<std::string> paths;  // one at least; the first grows as rows come, the others are made of it
   bool overwrite = false;

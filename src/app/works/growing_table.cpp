@@ -52,12 +52,26 @@ bool is_table_like(const std::string& path, const std::string& head) {
   return head.starts_with(text);
 }
 
+// Whether the last line is the hash of those above it.
+bool has_hash_of_rows(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  Sha256 hash;
+  for (std::string line; std::getline(stream, line) && !stream.eof();) {
+    if (line.starts_with(kHashOfRows))
+      return line == kHashOfRows + hash.finish() && stream.peek() == std::ifstream::traits_type::eof();
+    line += '\n';
+    hash.add(std::as_bytes(std::span(line)));
+  }
+  return false;
+}
+
 }  // namespace
 
 GrowingTable::GrowingTable(const std::string& path, const std::string& head, std::size_t first, std::size_t rows, bool overwrite)
     : path_(path), hidden_((fs::path(path).parent_path() / ("." + fs::path(path).filename().string() + ".rows")).string()),
       head_size_(head.size()), overwrite_(overwrite) {
-  if (const Found whole = look_at(path, head, first); whole.has_head && whole.rows == rows) {
+  if (const Found whole = look_at(path, head, first); whole.has_head && whole.rows == rows && (!overwrite || has_hash_of_rows(path))) {
+    require_hash_of_rows(path);
     finished_ = true;
     before_ = whole.rows;
     // As a process leaves it that was killed between the two.
@@ -120,27 +134,18 @@ void GrowingTable::append(const std::string& text) {
   }
 }
 
-void GrowingTable::commit_with_hash() {
-  std::ifstream rows(hidden_, std::ios::binary);
-  append(kHashOfRows + hash_of_stream(rows, hidden_).sha256 + "\n");
-  commit();
+std::string line_of_hash(const std::string& path) {
+  std::ifstream rows(path, std::ios::binary);
+  return kHashOfRows + hash_of_stream(rows, path).sha256 + "\n";
 }
 
 void require_hash_of_rows(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  Sha256 hash;
-  for (std::string line; std::getline(stream, line) && !stream.eof();) {
-    if (line.starts_with(kHashOfRows)) {
-      if (line == kHashOfRows + hash.finish() && stream.peek() == std::ifstream::traits_type::eof()) return;
-      break;
-    }
-    line += '\n';
-    hash.add(std::as_bytes(std::span(line)));
-  }
-  throw Error(ExitCode::bad_input, "has been changed or cut off since it was written: compute it again", {path});
+  if (!has_hash_of_rows(path))
+    throw Error(ExitCode::bad_input, "has been changed or cut off since it was written: compute it again, with --force", {path});
 }
 
 void GrowingTable::commit(const std::function<std::string(const std::string& csv)>& file_of) {
+  append(line_of_hash(hidden_));
   OutputFile output(path_, overwrite_);
   std::error_code code;
   if (file_of) {

@@ -13,6 +13,8 @@ namespace chainreel {
 
 inline constexpr std::uintmax_t kLargestGrown = std::uintmax_t(1) << 32;  // bytes, to be read again
 inline const std::string kHashOfRows = "# sha256: ";
+// The last line of the table whose lines before it `path` has, with its end.
+std::string line_of_hash(const std::string& path);
 // Throws Error (exit 3) where the last line of the table at `path` is not the hash of those above it.
 void require_hash_of_rows(const std::string& path);
 
@@ -35,10 +37,9 @@ class GrowingTable {
   // Row lines number `piece`, counted from 0 in this run of the program, in any order and from any thread. Throws Error
   // (exit 6).
   void take(std::size_t piece, std::string lines);
-  // All rows are there, and a last line tells the hash of all above it, so that whoever joins parts sees that they are whole.
-  void commit_with_hash();
-  // All rows are there. `file_of`: the bytes that the table becomes, else it stays as it is; a table that became something else is
-  // none that is known to be finished.
+  // All rows are there, and a last line tells the hash of all above it, so that whoever joins parts or goes on sees that they are
+  // whole and nobody else's. `file_of`: the bytes that the table becomes, else it stays as it is; a table that became something
+  // else is none that is known to be finished.
   void commit(const std::function<std::string(const std::string& csv)>& file_of = nullptr);
 
  private:
