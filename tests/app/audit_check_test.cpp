@@ -124,6 +124,17 @@ TEST(FilmOfToday, OfAFolderFindsItsScenesAndNamesWhatChanged) {
   EXPECT_EQ(asked().status, 1);
   EXPECT_THAT(asked().out, HasSubstr("is not as it was written"));
   folder.write("docs/a.mp4", bytes);
+  // What its audit tells of and is gone is asked about, too, and the command that is told brings it back.
+  fs::remove(folder.file("docs/b.webm"));
+  const ProgramResult gone = asked();
+  EXPECT_EQ(gone.status, 1);
+  EXPECT_THAT(gone.out, HasSubstr("b.webm is gone: the audit beside it tells of it"));
+  EXPECT_THAT(gone.err, AllOf(HasSubstr("b.webm: is gone: render it again"), Not(HasSubstr("b.srt"))));
+  EXPECT_TRUE(Json::parse(run_program({"check", folder.file("docs"), "--today", "--json"}).out)["films"][1]["is_gone"]);
+  RunOptions shell;
+  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
+  ASSERT_EQ(run_command({"sh", "-e", "-c", run_program({"check", folder.file("docs"), "--today", "--commands"}).out}, shell).status, 0);
+  EXPECT_EQ(asked().status, 0) << asked().out;
   // What cannot be told is no yes: another scene of that name is another one, and without an audit nothing tells where the scene lies.
   fs::rename(folder.file("scenes/a.yaml"), folder.file("a.yaml"));
   EXPECT_EQ(asked().status, 3);
@@ -236,6 +247,8 @@ TEST(FilmOfToday, AsksTablesToo) {
   ASSERT_EQ(run_command({"sh", "-e", "-c", command}, shell).status, 0);
   EXPECT_EQ(run_program({"check", folder.file("v"), "--today"}).status, 0);
   EXPECT_FALSE(fs::exists(folder.file("v/f.1.1.csv")));
+  fs::remove(folder.file("v/f.2.csv"));
+  EXPECT_THAT(run_program({"check", folder.file("v"), "--today", "--commands"}).out, HasSubstr("-o " + folder.file("v/f.csv") + " --force"));
   folder.write("rr.urdf", model);
   folder.write("docs/a.csv", read_whole_file(folder.file("docs/a.csv")) + "0\n");
   EXPECT_EQ(run_program({"check", folder.file("docs/a.csv"), "--today"}).status, 1);

@@ -114,11 +114,12 @@ struct Today {
   std::vector<std::string> facts{};  // of the audit
   bool has_other_versions = false;
   std::optional<Error> trouble{};  // it cannot be told
+  bool is_gone = false;          // an audit tells of it, and it is not there
   bool knows_set = true;         // what the command line changed when it was made
   std::vector<std::string> set{};      // that, and what is given now
   std::vector<std::string> command{};  // what makes it anew; none where that is not known
 
-  bool is_same() const { return words.empty() && facts.empty() && !trouble; }
+  bool is_same() const { return words.empty() && facts.empty() && !trouble && !is_gone; }
 };
 
 Today difference_of(const std::string& path, const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
@@ -156,6 +157,12 @@ struct OwnAudit {
   std::string folder;        // of the audit
 };
 
+// The files that it tells of.
+Json files_of(const Json& audit) {
+  const Json files = audit.is_object() ? audit.value(kAuditedFiles, Json()) : Json();
+  return files.is_array() ? files : Json::array();
+}
+
 // Which audits of a folder tell of a file that has none beside it. Each folder is read once.
 class AuditsOfFolders {
  public:
@@ -178,9 +185,7 @@ class AuditsOfFolders {
     for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
       const std::string path = entry->path().string();
       if (lower_case_ending(path) != ".json") continue;
-      const Json audit = audit_beside(path);
-      if (!audit.is_object() || !audit.contains(kAuditedFiles) || !audit[kAuditedFiles].is_array()) continue;
-      for (const Json& one : audit[kAuditedFiles]) tellers[word_of(one, "file")].push_back(path);
+      for (const Json& one : files_of(audit_beside(path))) tellers[word_of(one, "file")].push_back(path);
     }
   }
 
@@ -228,6 +233,7 @@ std::vector<std::string> changes_of(const OwnAudit& audit, const CommonOptions& 
 struct AskedFilm {
   std::string path;
   OwnAudit audit;
+  bool is_gone = false;  // the audit tells of it, and it is not there
 };
 
 // What makes it anew, as a shell's words. What has an audit beside it was made by `render`, a picture of one instant, too.
@@ -255,17 +261,21 @@ void tell_remaking(Today& today, const OwnAudit& audit, const CommonOptions& com
   if (today.knows_set) today.command = remaking_command(today, at);
 }
 
+// The table of a panel, f.2.csv, is made with all others of its page, by -o f.csv.
+std::string page_of_table(const std::string& path) {
+  const fs::path stem = fs::path(path).replace_extension();
+  return fs::path(stem).replace_extension().string() + fs::path(path).extension().string();
+}
+
 // A table of `render`: it remembers nothing, and is made again.
 Today table_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
-  const auto& [path, audit] = asked;
+  const auto& [path, audit, is_gone] = asked;
   const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = path, .scene = film.scene.file};
   tell_remaking(found, audit, common, nullptr);
   const Runs runs(film);
   const std::string bytes = read_plain_file(path);
-  // That of a panel, f.2.csv, is made with all others of its page, by -o f.csv.
-  const fs::path stem = fs::path(path).replace_extension();
-  const std::string page = fs::path(stem).replace_extension().string() + fs::path(path).extension().string();
+  const std::string page = page_of_table(path);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs.size() > 1 && panel_table_path(page, i, false) != path) continue;
     if (runs.size() > 1) std::ranges::replace(found.command, path, page);
@@ -279,8 +289,17 @@ Today table_of_today(const AskedFilm& asked, const std::string& scene, const Com
   return found;
 }
 
+Today gone_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
+  const PreparedFilm film = film_behind(asked, scene, common);
+  Today found{.path = asked.path, .scene = film.scene.file, .is_gone = true};
+  tell_remaking(found, asked.audit, common, asked.audit.json.value("at", Json()));
+  if (is_table(asked.path) && film.panels.size() > 1) std::ranges::replace(found.command, asked.path, page_of_table(asked.path));
+  return found;
+}
+
 Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
-  const auto& [path, audit] = asked;
+  const auto& [path, audit, is_gone] = asked;
+  if (is_gone) return gone_of_today(asked, scene, common);
   if (is_table(path)) return table_of_today(asked, scene, common);
   const ClipMemory remembered = recall(path);
   if (!remembered.figure.is_null())
@@ -309,6 +328,19 @@ struct AskedFilms {
   std::vector<std::string> passed_over;
 };
 
+// What an audit tells of that lay beside it, and does not any more.
+void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
+  const Json json = audit_beside(audit);
+  if (!json.is_object() || word_of(json, kScenePath).empty()) return;
+  const fs::path folder = fs::path(audit).parent_path();
+  for (const Json& one : files_of(json)) {
+    const std::string file = (folder / fs::path(word_of(one, "file")).filename()).string();
+    std::error_code code;
+    if (find_output_format(file) != nullptr && !fs::exists(fs::symlink_status(file, code)))
+      list.push_back({file, {json, false, folder.string()}, true});
+  }
+}
+
 // Of a folder, and of those in it, what an audit tells of; without one nobody knows where the scene lies.
 AskedFilms with_folders_opened(const std::vector<std::string>& paths) {
   AskedFilms all;
@@ -323,6 +355,7 @@ AskedFilms with_folders_opened(const std::vector<std::string>& paths) {
     for (fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, code), end; !code && entry != end; entry.increment(code)) {
       throw_if_interrupted();
       const std::string file = entry->path().string();
+      if (entry->is_regular_file(code) && lower_case_ending(file) == ".json") add_gone(file, all.list);
       const OutputFormat* format = find_output_format(file);
       if (!entry->is_regular_file(code) || format == nullptr || (format->read_tags == nullptr && format->shows != Shows::table)) continue;
       OwnAudit audit = is_table(file) || remembers_scene(file) ? own_audit(file, audits) : OwnAudit{};
@@ -351,6 +384,8 @@ void tell_passed_over(const std::vector<std::string>& files) {
 void print_today(const Today& one) {
   if (one.trouble)
     std::printf("%s: it cannot be told whether its scene shows the same today\n", one.path.c_str());
+  else if (one.is_gone)
+    std::printf("%s is gone: the audit beside it tells of it\n", one.path.c_str());
   else if (one.is_same())
     std::printf("%s is what %s shows today%s\n", one.path.c_str(), one.scene.c_str(), one.has_other_versions ? ", made by other versions of the program or its libraries" : "");
   else
@@ -363,12 +398,12 @@ void print_today(const Today& one) {
 
 // For a shell nothing else is told: what is as it should be has no line.
 void print_command(const Today& one) {
-  if (!one.is_same() && !one.command.empty()) std::printf("%s\n", shell_line(one.command).c_str());
+  if (!one.command.empty()) std::printf("%s\n", shell_line(one.command).c_str());
 }
 
 Json report_of(const Today& one) {
   return {{"file", one.path}, {"scene", one.scene}, {"set", one.set}, {"command", one.command}, {"is_same", one.is_same()}, {"changed", one.words}, {"audit_changed", one.facts},
-          {"has_other_versions", one.has_other_versions}, {"trouble", one.trouble ? Json(one.trouble->problems().front().message) : Json(nullptr)}};
+          {"has_other_versions", one.has_other_versions}, {"is_gone", one.is_gone}, {"trouble", one.trouble ? Json(one.trouble->problems().front().message) : Json(nullptr)}};
 }
 
 }  // namespace
@@ -412,7 +447,7 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
     for (const Today& one : all)
       if (!as_commands)
         print_today(one);
-      else if (told.insert(one.command).second)
+      else if (!one.is_same() && told.insert(one.command).second)
         print_command(one);
   });
   std::vector<Problem> troubles, changed;
@@ -427,7 +462,7 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
         troubles.push_back(std::move(problem));
       }
     else if (!one.is_same())
-      changed.push_back({"is not what " + one.scene + " shows today: render it again" + (one.command.empty() ? "" : ", `" + shell_line(one.command) + "`"), {one.path}});
+      changed.push_back({(one.is_gone ? "is gone" : "is not what " + one.scene + " shows today") + ": render it again" + (one.command.empty() ? "" : ", `" + shell_line(one.command) + "`"), {one.path}});
   }
   const bool is_told = troubles.empty();
   std::ranges::move(changed, std::back_inserter(troubles));

@@ -129,7 +129,7 @@ const std::vector<JsonReport>& json_reports() {
       {"check", {{"scene", "its text with all defaults"},
                  {"model, cost", "of one run; null of a comparison"},
                  {"panels", "[{title, model, cost}] of a comparison; else []"},
-                 {"slow_motion", "[{from, until, speed, ease, because}]. Of a .urdf: findings and model. Of a film or picture: audit, passes, audited, [{file, state, sha256, expected}], contradicted, keys of the audit, and remembered, whether a film was there to hold it against. With --today films, of each its file, scene, set, is_same, changed, audit_changed, has_other_versions, trouble, and command, the words that make it anew; and passed_over, the files without an audit"}}},
+                 {"slow_motion", "[{from, until, speed, ease, because}]. Of a .urdf: findings and model. Of a film or picture: audit, passes, audited, [{file, state, sha256, expected}], contradicted, keys of the audit, and remembered, whether a film was there to hold it against. With --today films, of each its file, scene, set, is_same, changed, audit_changed, has_other_versions, is_gone, trouble, and command, the words that make it anew; and passed_over, the files without an audit"}}},
       {"compare", {{"before, after, equal, passes", "what was compared, and whether it is the same"},
                    {"tolerance", "of pictures {error, pixels, edges_forgiven}, of tables {of_range}; or null"},
                    {"explained", "differences that are told, in words"},
