@@ -625,6 +625,10 @@ TEST(SweepMap, ShowsAColumnOfTheTableOverItsTwoKeys) {
   EXPECT_EQ(at(0.1, 0.3), at(0.1, 0.7));
   EXPECT_NE(at(0.1, 0.5), at(0.7, 0.5));
   EXPECT_GT(at(0.1, 0.5)[2], at(0.7, 0.5)[2]) << "yellow where it is fastest, violet where it is slowest";
+  EXPECT_THAT(svg, AllOf(HasSubstr("DOP853"), Not(HasSubstr("doubtful"))));
+  // Numbers that a table calls doubtful have a dot, and the page says of how many.
+  ASSERT_EQ(swept({"--peaks", "qd", "--map", "qd2", "--set", "method=semi_implicit_euler", "--set", "step=0.3", "-o", folder.file("d.svg")}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("d.svg")), AllOf(HasSubstr("doubtful"), HasSubstr("its column")));
   // By the first of the peaks where no column is named; what has no number is hatched.
   ASSERT_EQ(swept({"--map", "down", "-o", folder.file("e.svg"), "-o", folder.file("e.csv")}).status, 0);
   EXPECT_THAT(read_whole_file(folder.file("e.svg")), HasSubstr("no value"));

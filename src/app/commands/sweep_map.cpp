@@ -5,12 +5,14 @@
 #include <sstream>
 
 #include "app/commands/map_axes.hpp"
+#include "app/commands/sweep_table.hpp"
 #include "app/film/formats.hpp"
 #include "app/report/report.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
+#include "integrate/method.hpp"
 #include "scene/run/title.hpp"
 
 namespace chainreel {
@@ -56,6 +58,11 @@ std::string title_of_column(const std::string& column) {
   return (is_peak ? "largest " : "") + (is_symbol ? "$" + plain + "$" : plain) + (name.unit.empty() ? "" : " [" + name.unit + "]");
 }
 
+// ", semi-implicit Euler, step 0.001 s" where all runs have it.
+std::string method_of(const Grid& grid, const Scene& scene) {
+  return varies_method(grid) || scene.chooses_method() ? "" : ", " + method_title(scene.method) + method_text(scene).substr(scene.method.size());
+}
+
 }  // namespace
 
 bool is_map_path(const std::string& path) {
@@ -73,10 +80,10 @@ StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& 
   StabilityMap map;
   map.nx = int(x.values.size());
   map.ny = int(y.values.size());
-  map.cells.assign(grid.size(), {true, 0});
+  map.cells.assign(grid.size(), {.failed = true});
   std::istringstream text(read_plain_file(path));
   std::vector<std::string> header;
-  std::size_t column = 0, good = 0;
+  std::size_t column = 0, good = 0, doubtful = 0;
   int number = 0;
   for (std::string line; std::getline(text, line);) {
     const Place place{path, ++number};
@@ -95,17 +102,21 @@ StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& 
     const bool is_good = good == header.size() || fields[good] == "1";
     // Of a peak the size: where its sign changes from run to run no cell would be like its neighbours.
     const double shown = is_good && value && ColumnName(header[column]).name.starts_with(kPeak) ? std::abs(*value) : value.value_or(0);
-    if (is_good && value) map.cells[at[1] * x.values.size() + at[0]] = {false, shown};
+    if (!is_good || !value) continue;
+    const bool is_doubtful = fields.back().starts_with(kDoubtful);
+    map.cells[at[1] * x.values.size() + at[0]] = {false, shown, is_doubtful};
+    doubtful += is_doubtful;
   }
   if (header.empty()) throw Error(ExitCode::bad_input, "has no line of names", {path});
   map.title = title_over_runs(scene);
-  map.subtitle = std::to_string(grid.size()) + " runs of " + format_quantity(scene.duration, "s");
+  map.subtitle = std::to_string(grid.size()) + " runs of " + format_quantity(scene.duration, "s") + method_of(grid, scene);
   map.x = map_axis(x);
   map.y = map_axis(y);
   map.is_linear = true;
   map.error_title = title_of_column(header[column]);
   map.hatched = "no value";
-  map.footer = "Each cell is a run; the table beside has its numbers.";
+  map.footer = "Each cell is a run; the table beside has its numbers" +
+               (doubtful == 0 ? "." : ". Of " + std::to_string(doubtful) + " it is doubtful: its column `trouble` says why.");
   return map;
 }
 

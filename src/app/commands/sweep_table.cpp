@@ -256,11 +256,7 @@ std::string runs_line(const FrameRange& runs, std::size_t all) {
 }
 
 std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& chain, std::vector<std::string> peaks) {
-  const auto is_of_method = [](const Sweep& axis) {
-    return axis.key == "method" || axis.key == "step" || axis.key == "tolerance" || axis.key == "order";
-  };
-  const bool one_method = std::none_of(job.grid.axes().begin(), job.grid.axes().end(), is_of_method);
-  std::string head = "# sweep: " + first.name + (one_method ? ", " + method_text(first) : "") + "\n# key: " + key_of(job) + "\n" +
+  std::string head = "# sweep: " + first.name + (varies_method(job.grid) ? "" : ", " + method_text(first)) + "\n# key: " + key_of(job) + "\n" +
                      runs_line(job.runs, job.grid.size()) + "run";
   for (const Sweep& axis : job.grid.axes()) head += "," + axis.key;
   // Of other models the same numbers may have other units.
@@ -274,6 +270,12 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& c
 }
 
 }  // namespace
+
+bool varies_method(const Grid& grid) {
+  return std::ranges::any_of(grid.axes(), [](const Sweep& axis) {
+    return axis.key == "method" || axis.key == "step" || axis.key == "tolerance" || axis.key == "order";
+  });
+}
 
 void refuse_unknown_keys(const std::string& scene, const std::vector<std::string>& overrides, const Grid& grid) {
   try {

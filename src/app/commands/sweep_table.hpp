@@ -23,6 +23,9 @@ struct SweepTableJob {
   std::vector<MotionColumn> peaks;  // see app/report/peaks
 };
 
+// Whether runs have several methods, steps or tolerances.
+bool varies_method(const Grid& grid);
+
 // Throws Error where the keys themselves lead nowhere, whatever their values: said once, not of each run.
 void refuse_unknown_keys(const std::string& scene, const std::vector<std::string>& overrides, const Grid& grid);
 

@@ -17,6 +17,7 @@ constexpr std::array<std::uint32_t, 10> kViridis = {0x440154, 0x482878, 0x3E4989
 constexpr double kBarGap = 0.045, kBarWidth = 0.035, kBarToLabel = 0.016;
 constexpr int kBarSteps = 128;
 constexpr double kSwatch = 0.044, kSwatchToText = 0.012;
+constexpr double kDotOfCell = 0.16, kLargestDot = 0.0075, kDotEdge = 0.0022;  // radius: of the cell's shorter side, and at most
 constexpr double kHalo = 0.0085, kBoundaryLine = 0.0040;
 constexpr double kLabelPad = 0.010, kLabelDistance = 0.030;
 
@@ -69,6 +70,17 @@ void draw_failed_hatch(Picture& picture, const StabilityMap& data, const Rect& b
   std::vector<bool> failed;
   for (const MapCell& cell : data.cells) failed.push_back(cell.failed);
   draw_hatch(picture, box, data.nx, data.ny, failed, theme.base);
+}
+
+// In the middle of each cell that is doubtful: light with a dark edge, seen on any colour.
+void draw_doubtful_dots(Picture& picture, const StabilityMap& data, const Rect& box) {
+  const double width = box.width() / data.nx, height = box.height() / data.ny;
+  const double radius = std::min(kDotOfCell * std::min(width, height), kLargestDot);
+  for (std::size_t i = 0; i < data.cells.size(); ++i) {
+    if (!data.cells[i].doubtful) continue;
+    const Point middle{box.x0 + (double(i % std::size_t(data.nx)) + 0.5) * width, box.y0 + (double(i / std::size_t(data.nx)) + 0.5) * height};
+    picture.add(Ellipse{middle, {radius, 0}, {0, radius}, {Color{255, 255, 255, 1}, Color{0, 0, 0, 1}, std::min(kDotEdge, radius / 2)}});
+  }
 }
 
 void draw_boundary_line(Picture& picture, const PlotFrame& frame, const MapBoundary& boundary,
@@ -155,32 +167,49 @@ double widest_tick(const Axis& errors, const PlotStyle& style) {
   return widest;
 }
 
-// The bar's title above it, what is hatched below it.
-void draw_legend(Picture& picture, const PlotFrame& map, const Axis& errors, const std::string& hatched,
-                 const ChartLook& look) {
+struct MapKey {
+  std::string hatched, dotted;  // none where no cell is
+};
+
+MapKey key_of(const StabilityMap& data) {
+  const auto any = [&data](bool MapCell::*is) { return std::ranges::any_of(data.cells, [is](const MapCell& cell) { return cell.*is; }); };
+  return {any(&MapCell::failed) ? data.hatched : "", any(&MapCell::doubtful) ? data.dotted : ""};
+}
+
+// The bar's title above it, what is hatched or has dots below it.
+void draw_legend(Picture& picture, const PlotFrame& map, const Axis& errors, const MapKey& key, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const double em = style.text(size::kTick), left = map.box.x1 + kBarGap;
   const TextStyle text{Face::label, em, look.theme->ink, Align::left};
   double bottom = map.box.y0;
-  if (!hatched.empty()) {
+  const auto add = [&](const std::string& words, const auto& draw_swatch) {
+    if (words.empty()) return;
     const Rect swatch = {left, bottom, left + kSwatch, bottom + kSwatch};
-    picture.add(Cells{swatch, 1, 1, {failed_color(*look.theme)}});
-    draw_hatch(picture, swatch, 1, 1, {true}, look.theme->base);
-    draw_text(picture, lay_out_text(*look.fonts, hatched, text),
+    draw_swatch(swatch);
+    draw_text(picture, lay_out_text(*look.fonts, words, text),
               {swatch.x1 + kSwatchToText, (swatch.y0 + swatch.y1 - kCapHeight * em) / 2});
     bottom += kSwatch + em;
-  }
+  };
+  add(key.hatched, [&](const Rect& swatch) {
+    picture.add(Cells{swatch, 1, 1, {failed_color(*look.theme)}});
+    draw_hatch(picture, swatch, 1, 1, {true}, look.theme->base);
+  });
+  add(key.dotted, [&](const Rect& swatch) {
+    picture.add(Cells{swatch, 1, 1, {map_color(0.5)}});
+    draw_doubtful_dots(picture, {.nx = 1, .ny = 1, .cells = {{.doubtful = true}}}, swatch);
+  });
   draw_color_bar(picture, {left, bottom, left + kBarWidth, map.box.y1}, errors, look);
   const TextStyle title{Face::label, style.text(size::kAxis), look.theme->ink, Align::left};
   draw_text(picture, lay_out_words(*look.fonts, errors.title, title), {left, map.box.y1 + title_above_frame(look.plot_style())});
 }
 
-double legend_width(const Axis& errors, const std::string& hatched, const ChartLook& look) {
+double legend_width(const Axis& errors, const StabilityMap& data, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const TextStyle text{Face::label, style.text(size::kTick), look.theme->ink, Align::left};
   const TextStyle title{Face::label, style.text(size::kAxis), look.theme->ink, Align::left};
   return kBarGap + std::max({kBarWidth + kBarToLabel + widest_tick(errors, style),
-                             kSwatch + kSwatchToText + lay_out_text(*look.fonts, hatched, text).advance,
+                             kSwatch + kSwatchToText + lay_out_text(*look.fonts, data.hatched, text).advance,
+                             key_of(data).dotted.empty() ? 0 : kSwatch + kSwatchToText + lay_out_text(*look.fonts, data.dotted, text).advance,
                              lay_out_words(*look.fonts, errors.title, title).advance});
 }
 
@@ -241,19 +270,18 @@ Picture stability_map(const StabilityMap& data, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const Axis errors = error_axis(data);
   const PlotFrame frame =
-      lay_out_plot({area.x0, area.y0, area.x1 - legend_width(errors, data.hatched, look), area.y1}, data.x, data.y, style);
+      lay_out_plot({area.x0, area.y0, area.x1 - legend_width(errors, data, look), area.y1}, data.x, data.y, style);
   require_room_for_axes(frame, look);
   draw_axes(picture, frame, style);
   picture.add(cells_of(data, errors, frame.box, *look.theme));
   draw_failed_hatch(picture, data, frame.box, *look.theme);
+  draw_doubtful_dots(picture, data, frame.box);
   for (const MapBoundary& boundary : data.boundaries)
     draw_boundary_line(picture, frame, boundary, *look.theme);
   std::vector<Rect> taken;
   for (const MapBoundary& boundary : data.boundaries)
     draw_boundary_label(picture, frame, boundary, taken, look);
-  const bool any_failed =
-      std::any_of(data.cells.begin(), data.cells.end(), [](const MapCell& cell) { return cell.failed; });
-  draw_legend(picture, frame, errors, any_failed ? data.hatched : "", look);
+  draw_legend(picture, frame, errors, key_of(data), look);
   return as_page(picture, look);
 }
 

@@ -13,6 +13,7 @@ namespace chainreel {
 struct MapCell {
   bool failed = false;
   double error = 0;  // of a run that held; 0 and below count as the least error of the map
+  bool doubtful = false;  // its number is not to be relied on: it has a dot
 };
 
 struct MapBoundary {
@@ -28,6 +29,7 @@ struct StabilityMap {
   std::string error_title = "final error";
   bool is_linear = false;  // of numbers that are no errors: an even scale from the least to the largest, with their signs
   std::string hatched = "failed";  // what the cells are that have no number
+  std::string dotted = "doubtful";  // what the cells are that have a dot
   std::vector<MapBoundary> boundaries;
   std::string footer;
 };

@@ -17,6 +17,13 @@
 namespace chainreel {
 namespace {
 
+// How long sample k stands for what is moving, s: up to the next one, and the last one like that before it.
+double lasts(const std::vector<double>& t, std::size_t k) {
+  if (t.size() < 2) return 0;
+  const std::size_t from = std::min(k, t.size() - 2);
+  return t[from + 1] - t[from];
+}
+
 using Eigen::Vector3d;
 
 // More of them would hide the chain, and the legend says what they are.
@@ -97,7 +104,8 @@ class VectorLayer : public Layer {
   }
 
  private:
-  // Runs that diverge do not decide on it, unless all do: their arrows are cut.
+  // By the time of the motion: where the film stands still or is slow nothing is larger. Runs that diverge do not decide on it,
+  // unless all do: their arrows are cut.
   static VectorScales scales_of(const Stage& stage, const char* name, const VectorsAt& vectors_at) {
     VectorMagnitudes magnitudes;
     for (std::size_t i = 0; i < stage.full_panels(); ++i) {
@@ -108,7 +116,7 @@ class VectorLayer : public Layer {
         const Workspace& ws = motion.pose_at(k);
         // Where a run goes wild its forces say nothing.
         if (chain.end_effector >= 0 && !(tip_position(chain, ws).norm() <= motion.limit())) break;
-        for (const WorldVector& vector : vectors_at(motion, ws, k)) magnitudes.add(vector);
+        for (const WorldVector& vector : vectors_at(motion, ws, k)) magnitudes.add(vector, lasts(stage.times, std::size_t(k)));
       }
     }
     auto full = magnitudes.full();
@@ -167,8 +175,8 @@ class TorqueRun {
       if (device.is_all_of_it()) shown_[std::size_t(device.drive.freedom)] = false;
     // Pictures to be laid over others have no words but those that were asked for.
     labelled_ = !is_transparent(stage.page) && std::count(shown_.begin(), shown_.end(), true) <= kMostTorqueLabels;
-    std::vector<double> magnitudes;
-    for (const double tau : tau_) magnitudes.push_back(std::abs(tau));
+    std::vector<Magnitude> magnitudes;
+    for (std::size_t at = 0; at < tau_.size(); ++at) magnitudes.push_back({std::abs(tau_[at]), lasts(t, at / nv_)});
     const double full = full_magnitude(std::move(magnitudes));
     for (std::size_t i = 0; i < nv_; ++i) {
       std::vector<bool> rests(t.size());

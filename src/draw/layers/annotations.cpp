@@ -24,6 +24,7 @@ constexpr double kSame = 1e-9;  // s
 constexpr double kWidths[] = {0.62, 0.42, 0.28};
 constexpr double kNarrower = 0.96, kNarrowest = 0.3, kLeading = 1.3;  // em from line to line
 constexpr double kFarPlaces[] = {0.09, 0.14, 0.20, 0.28};  // of words from what they speak of, units of H
+constexpr double kAirOfWords = 0.008;  // to the edge of their panel, units of H
 constexpr int kAnywhere = 5;  // columns, and rows, of places all over the panel, for where there is no room near
 
 // Adds a line's ink at a place.
@@ -130,14 +131,19 @@ class Annotations : public Layer {
   static Eigen::Vector3d point_of(const AnnotationEntry& entry, const Panel& panel, const Workspace& ws) {
     if (entry.spot.size() == 3) return {entry.spot[0], entry.spot[1], entry.spot[2]};
     if (entry.spot.size() == 2) return entry.spot[0] * panel.camera().right + entry.spot[1] * panel.camera().up;
-    const int frame = find_point(panel.chain(), panel.scene(), entry.point);
-    return frame_pose(panel.chain(), ws, frame).translation();
+    const Chain& chain = panel.chain();
+    const int frame = find_point(chain, panel.scene(), entry.point), body = chain.frames[std::size_t(frame)].body;
+    const Eigen::Isometry3d pose = frame_pose(chain, ws, frame);
+    // A link is meant where it is, not where it begins: its joint has a name of its own.
+    if (body > 0 && chain.bodies[std::size_t(body) - 1].name == entry.point) return pose * chain.bodies[std::size_t(body) - 1].inertia.com;
+    return pose.translation();
   }
 
   void add_words(const Note& note, const Shot& shot) const {
     const Panel& panel = shot.panel;
     const Rect& area = panel.area();
-    const std::vector<TextLine> shapes = shapes_of(note, area);
+    const Rect room = widened(area, -kAirOfWords);  // what hangs below the last line is seen whole
+    const std::vector<TextLine> shapes = shapes_of(note, room);
     const Point now = panel.camera().project(point_of(*note.entry, panel, shot.ws));
     // Where the words stand is decided by the instant that they are about.
     const auto& times = stage_->times;
@@ -150,7 +156,7 @@ class Annotations : public Layer {
     require_in_picture(note, panel, then);
     const Point inward = center_of(area) - then;
     const Point first = norm(inward) > 0.05 ? unit(inward) : unit({1, 1});
-    shot.labels.add({"annotation " + std::to_string(note.number), shapes.front(), places_of(shapes, area, then, first),
+    shot.labels.add({"annotation " + std::to_string(note.number), shapes.front(), places_of(shapes, room, then, first),
                      Leader{now, stage_->theme.ink}, std::nullopt, {shapes.begin() + 1, shapes.end()}});
   }
 

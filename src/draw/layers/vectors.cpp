@@ -78,18 +78,23 @@ std::string word_name(const WorldVector& vector) {
 
 }  // namespace
 
-void VectorMagnitudes::add(const WorldVector& vector) {
-  magnitudes_[std::size_t(vector.kind)].push_back(vector.value.norm());
+void VectorMagnitudes::add(const WorldVector& vector, double weight) {
+  magnitudes_[std::size_t(vector.kind)].push_back({vector.value.norm(), weight});
 }
 
-double full_magnitude(std::vector<double> magnitudes) {
-  std::erase_if(magnitudes, [](double one) { return !(one > 0) || !std::isfinite(one); });
+double full_magnitude(std::vector<Magnitude> magnitudes) {
+  std::erase_if(magnitudes, [](const Magnitude& one) { return !(one.size > 0) || !std::isfinite(one.size); });
   if (magnitudes.empty()) return 0;
-  const double least = kRoundOffBelow * *std::max_element(magnitudes.begin(), magnitudes.end());
-  std::erase_if(magnitudes, [least](double one) { return one < least; });
-  const auto at = magnitudes.begin() + std::ptrdiff_t(std::ceil(kShareBelowFull * double(magnitudes.size()))) - 1;
-  std::nth_element(magnitudes.begin(), at, magnitudes.end());
-  return *at;
+  std::ranges::sort(magnitudes, {}, &Magnitude::size);
+  const double least = kRoundOffBelow * magnitudes.back().size;
+  std::erase_if(magnitudes, [least](const Magnitude& one) { return one.size < least; });
+  const bool count_alike = std::ranges::none_of(magnitudes, [](const Magnitude& one) { return one.weight > 0; });
+  const auto weight_of = [count_alike](const Magnitude& one) { return count_alike ? 1 : one.weight; };
+  double all = 0, up_to = 0;
+  for (const Magnitude& one : magnitudes) all += weight_of(one);
+  for (const Magnitude& one : magnitudes)
+    if ((up_to += weight_of(one)) >= kShareBelowFull * all * (1 - kRoundOffBelow)) return one.size;
+  return magnitudes.back().size;
 }
 
 std::array<double, kVectorKinds.size()> VectorMagnitudes::full() const {

@@ -57,18 +57,23 @@ inline constexpr double kLeastArrows = 0.5;
 // Below this fraction of the full one a torque rests.
 inline constexpr double kRestBelow = 0.01;
 
-// The 95th percentile of those that are more than round-off beside the largest, 0 where there is none: the full one.
-double full_magnitude(std::vector<double> magnitudes);
+// What something is at a sample, and how long that stands for, s of the motion.
+struct Magnitude {
+  double size = 0, weight = 1;
+};
+// What 95 % of the motion's time are at most, of those that are more than round-off beside the largest; 0 where there is none: the
+// full one. Where all weights are zero, as of a picture by itself, they count alike.
+double full_magnitude(std::vector<Magnitude> magnitudes);
 
 // The magnitudes of a clip, of which its scales are made.
 class VectorMagnitudes {
  public:
-  void add(const WorldVector& vector);
-  // Of each kind the 95th percentile of those that are more than round-off beside the largest.
+  void add(const WorldVector& vector, double weight = 1);
+  // Of each kind the full one.
   std::array<double, kVectorKinds.size()> full() const;
 
  private:
-  std::array<std::vector<double>, kVectorKinds.size()> magnitudes_;
+  std::array<std::vector<Magnitude>, kVectorKinds.size()> magnitudes_;
 };
 
 // How strongly the ring of a torque that rests is seen at each of the instants `t` (s, rising), 0 to 1: from 0.3 s of rest
