@@ -105,12 +105,13 @@ struct Layout {
 Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
   const bool is_comparison = plain.stage->is_comparison();
   const bool is_ghost = plain.stage->is_ghost();
-  const bool may_tell = is_comparison ? page.plot.empty() && (is_ghost || is_narrow(page))
+  const bool is_of_methods = differ_in_method_alone(*plain.stage);
+  const bool may_tell = is_comparison ? page.plot.empty() && (is_ghost || is_of_methods || is_narrow(page))
                                       : page.plot.size() <= 1 && page.layout == PageLayout::automatic;
   if (!may_tell) return {page, {}};
   const Story story = page.plot.empty() ? story_of(*plain.stage) : Story();
   if (page.plot.empty() && story.empty()) return {page, {}};
-  const double kept = is_comparison && !is_ghost ? kLeastKeptOfPanels : kLeastKept;
+  const double kept = is_of_methods ? kLeastKeptOfMethods : is_comparison && !is_ghost ? kLeastKeptOfPanels : kLeastKept;
   // Where plots of a comparison stand FilmSheet knows.
   const std::vector<PageLayout> layouts = is_comparison ? std::vector{page.layout} : std::vector{PageLayout::scene_right, PageLayout::scene_below};
   for (const PageLayout layout : layouts) {

@@ -36,9 +36,10 @@ struct Composition {
 //
 // With layout `auto` a plot stands beside the scene, else below it, where the motion keeps kLeastKept of its size and no further
 // layer goes: the scene's only plot, or the story that it has (draw/film/story).
-// Comparisons have theirs on pages that are narrow, and those that lie over one another on all, where it costs next to nothing.
+// Comparisons have theirs on pages that are narrow, and those that lie over one another on all, where it costs next to nothing; those
+// of methods, which look alike, where kLeastKeptOfMethods is kept.
 inline constexpr double kLeastScene = 0.45;
-inline constexpr double kLeastKept = 0.8, kLeastKeptOfPanels = 0.95;
+inline constexpr double kLeastKept = 0.8, kLeastKeptOfPanels = 0.95, kLeastKeptOfMethods = 0.55;
 Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
                     const FilmClock& clock);
 

@@ -1,8 +1,11 @@
 #include "draw/film/story.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "draw/layers/devices.hpp"
+#include "scene/text/write_scene.hpp"
 
 namespace chainreel {
 namespace {
@@ -41,11 +44,29 @@ bool shows_masses(const Stage& stage) {
   return stage.shows("ellipse") || stage.shows("mass_matrix");
 }
 
+bool is_of_method(const SceneEntry& entry) {
+  constexpr std::array<std::string_view, 5> kKeys = {"method", "step", "tolerance", "order", "accuracy"};
+  return std::ranges::find(kKeys, entry.key) != kKeys.end();
+}
+
+std::vector<SceneEntry> entries_without_method(const Scene& scene) {
+  std::vector<SceneEntry> entries = entries_of(scene);
+  std::erase_if(entries, is_of_method);
+  return entries;
+}
+
 }  // namespace
+
+bool differ_in_method_alone(const Stage& stage) {
+  if (!stage.has_cells()) return false;
+  const std::vector<SceneEntry> first = entries_without_method(stage.motions.front().scene());
+  return std::ranges::all_of(stage.motions, [&first](const StagedRun& motion) { return entries_without_method(motion.scene()) == first; });
+}
 
 Story story_of(const Stage& stage) {
   const auto is_told = [](const StagedRun& motion) { return motion.samples() > 1 && motion.simulation() != nullptr; };
   if (!std::all_of(stage.motions.begin(), stage.motions.end(), is_told) || is_transparent(stage.page) || shows_masses(stage)) return {};
+  if (differ_in_method_alone(stage)) return of_all(stage, PlotQuantity::energy_error);
   const StagedRun& first = stage.motions.front();
   const auto is_constrained = [](const StagedRun& motion) { return motion.trajectory().rows > 0; };
   if (std::all_of(stage.motions.begin(), stage.motions.end(), is_constrained)) return of_all(stage, PlotQuantity::lambda);
