@@ -127,15 +127,29 @@ class Annotations : public Layer {
     return now >= begin - kSame && now <= begin + stay + kSame;
   }
 
+  // Half way to what it carries farthest off, a joint or a frame; the base where it stands.
+  static Eigen::Vector3d middle_of(const Chain& chain, int body) {
+    Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
+    const auto look = [&farthest](const Eigen::Vector3d& at) {
+      if (at.norm() > farthest.norm()) farthest = at;
+    };
+    for (const Body& other : chain.bodies)
+      if (body > 0 && other.parent == body) look(other.joint.X_PJ.translation());
+    for (const Frame& frame : chain.frames)
+      if (body > 0 && frame.body == body) look(frame.X_BF.translation());
+    return 0.5 * farthest;
+  }
+
   // What is spoken of, in W.
   static Eigen::Vector3d point_of(const AnnotationEntry& entry, const Panel& panel, const Workspace& ws) {
     if (entry.spot.size() == 3) return {entry.spot[0], entry.spot[1], entry.spot[2]};
     if (entry.spot.size() == 2) return entry.spot[0] * panel.camera().right + entry.spot[1] * panel.camera().up;
     const Chain& chain = panel.chain();
-    const int frame = find_point(chain, panel.scene(), entry.point), body = chain.frames[std::size_t(frame)].body;
+    const int frame = find_point(chain, panel.scene(), entry.point);
+    const Body& body = chain.bodies[std::size_t(chain.frames[std::size_t(frame)].body)];
     const Eigen::Isometry3d pose = frame_pose(chain, ws, frame);
     // A link is meant where it is, not where it begins: its joint has a name of its own.
-    if (body > 0 && chain.bodies[std::size_t(body) - 1].name == entry.point) return pose * chain.bodies[std::size_t(body) - 1].inertia.com;
+    if (body.name == entry.point) return pose * middle_of(chain, chain.frames[std::size_t(frame)].body);
     return pose.translation();
   }
 

@@ -71,12 +71,17 @@ PageLine across(const Rect& area, Point a, Point b) {
 class FootLayer : public Layer {
  public:
   explicit FootLayer(const Stage& stage)
-      : theme_(&stage.theme), arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
+      : theme_(&stage.theme),
+        page_(&stage.page),
+        held_(lay_out_text(stage.fonts, "foot held", {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left})),
+        arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
     for (const StagedRun& motion : stage.motions)
       if (is_of(motion) && motion.has_foot()) runs_.emplace(&motion, motion);
     const auto first = runs_.find(&stage.motions.front());
     if (first != runs_.end()) weight_ = first->second.weight;
   }
+
+  bool has_words() const override { return !runs_.empty(); }
 
   void write(SheetText& text) const override {
     constexpr double kLegend = 0.045;  // units of H, at most
@@ -134,10 +139,17 @@ class FootLayer : public Layer {
     const double radius = look.marks * kPressure;
     picture.add(Ellipse{pressure, {radius, 0}, {0, radius}, {stands ? look.theme->constraint : look.theme->background, look.theme->constraint, size::kLinkOutline}},
                 panel.clip());
+    // There a foot would tip; this one is fixed to the ground.
+    if (stands || !answer.is_shown || is_transparent(*page_)) return;
+    const Point middle = camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));
+    const Point away = answer.place > run.foot.toe ? unit(Point{-1, -1}) : unit(Point{1, -1});
+    shot.labels.add({"foot held", held_, places_about(held_, middle, kHeldOff, away)});
   }
 
  private:
   const Theme* theme_;
+  const Scene* page_;
+  TextLine held_;
   double arrow_;  // units of H: the weight's
   std::map<const StagedRun*, FootRun> runs_;
   std::optional<double> weight_;  // N, of the first run

@@ -69,7 +69,7 @@ KeyText told_annotate() {
                    told_either("point",
                                {told("", KeyForm::text, ""),
                                 told_list("", told("", KeyForm::number, ""), "m, as `camera.fit` has them, or x y z in the world")},
-                               "what it points at: a name of `frames`, a link, a joint, or a place [right, up] or [x, y, z]")
+                               "what it points at: a name of `frames`, a link (its middle), a joint, or a place [right, up] or [x, y, z]")
                        .required(),
                    told("hold", KeyForm::number, "for how long the motion stands still there, s of the film; 2 where it is left "
                                                  "out; with 0 the film goes on and the words stay for 2 s")

@@ -62,6 +62,22 @@ TEST_F(AnnotatedRr, HasALeaderToItsPointWhileTheClockStandsStillAndALittleBehind
   }
 }
 
+// Rods of 1 m: their middle, and the joint by its own name; oracle by hand.
+TEST_F(AnnotatedRr, ALinkIsPointedAtInItsMiddleAndAJointWhereItTurns) {
+  motion = [](double) { return std::vector<double>{0.3, 0.5}; };
+  const auto pointed = [this](const std::string& name) {
+    scene.annotate[0].spot.clear();
+    scene.annotate[0].point = name;
+    const Film one = film();
+    const std::vector<Point> ends = dots(one.frame(15));
+    return ends.size() == 1 ? (1 / one.camera().scale) * (ends[0] - one.camera().project({0, 0, 0})) : Point{9, 9};
+  };
+  const Point joint{std::cos(0.3), std::sin(0.3)}, along{std::cos(0.8), std::sin(0.8)};
+  EXPECT_LT(norm(pointed("joint2") - joint), 1e-9);
+  EXPECT_LT(norm(pointed("link2") - (joint + 0.5 * along)), 1e-9);
+  EXPECT_LT(norm(pointed("gripper") - (joint + along)), 1e-9);
+}
+
 TEST_F(AnnotatedRr, FramesOfAPauseAreOnePictureAndAnyFrameIsDrawnAlone) {
   const Film one = film(), other = film();
   const std::size_t items = one.frame(15).items.size();
