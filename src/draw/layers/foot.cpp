@@ -1,6 +1,6 @@
 // A foot on the ground and what the ground answers: an arrow that ends at the centre of pressure, which is marked, as long as
 // the force. It stands below the ground, along the line on which the force acts, where no leg hides it. Beyond the foot, where no ground could push, it is dashed; where the ground had to pull, there is
-// none.
+// none. Then words say that the foot is held.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -19,6 +19,7 @@ namespace {
 constexpr double kWeightArrow = 0.15;  // units of H: as long is the force that bears the weight
 constexpr double kBesideOthers = 0.55;  // ... of that, where panels or plots share the page: the robot is what one looks at
 constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones lead out of the scene
+constexpr double kHeldOff = 0.045;     // units of H: of the words that the foot is held, from its middle
 constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
 
 // A run's foot, and what the ground answers at its samples.
@@ -129,24 +130,27 @@ class FootLayer : public Layer {
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
     const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(shot.k, 0, int(run.answers.size()) - 1))];
-    if (!answer.is_shown) return;
     const Camera& camera = panel.camera();
+    const bool stands = answer.is_shown && answer.place >= run.foot.heel && answer.place <= run.foot.toe;
+    if (!stands && !is_transparent(*page_)) add_held(run, answer, camera, shot.labels);
+    if (!answer.is_shown) return;
     const Point force = (arrow_ / camera.scale) * camera.project_vector(answer.force, camera.focus);
-    const bool stands = answer.place >= run.foot.heel && answer.place <= run.foot.toe;
     const ChainLook& look = panel.look();
     const Point pressure = camera.project(run.on_ground(answer.place));
     draw_arrow(picture, pressure - force, force, {look.theme->constraint, look.marks, !stands, 0, look.theme->lines, look.theme->background}, panel.clip());
     const double radius = look.marks * kPressure;
     picture.add(Ellipse{pressure, {radius, 0}, {0, radius}, {stands ? look.theme->constraint : look.theme->background, look.theme->constraint, size::kLinkOutline}},
                 panel.clip());
-    // There a foot would tip; this one is fixed to the ground.
-    if (stands || !answer.is_shown || is_transparent(*page_)) return;
-    const Point middle = camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));
-    const Point away = answer.place > run.foot.toe ? unit(Point{-1, -1}) : unit(Point{1, -1});
-    shot.labels.add({"foot held", held_, places_about(held_, middle, kHeldOff, away)});
   }
 
  private:
+  // A real foot would tip or rise there; this one is fixed to the ground. On the side that the pressure is not at.
+  void add_held(const FootRun& run, const FootRun::Answer& answer, const Camera& camera, MarkLabels& labels) const {
+    const Point middle = camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));
+    const Point away = unit(Point{answer.is_shown && answer.place > run.foot.toe ? -1.0 : 1.0, -1});
+    labels.add({"foot held", held_, places_about(held_, middle, kHeldOff, away)});
+  }
+
   const Theme* theme_;
   const Scene* page_;
   TextLine held_;
