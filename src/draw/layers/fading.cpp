@@ -326,7 +326,7 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
     for (const double gap : kFarNumberGaps)
       for (const Rect& place : places_about(word.line, end, gap, unit(v)))
         if (is_within(place, style.scene)) word.places.push_back(place);
-    word.tie = Tie{end, kNumberGaps[0], style.theme->ellipse};
+    word.tie = Tie{end, kNumberGaps[0], style.theme->ellipse, center - v};
   }
   if (has_lines) {
     for (const double share : {0.7, -0.7, 0.4, -0.4})
