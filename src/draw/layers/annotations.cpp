@@ -22,6 +22,7 @@ constexpr double kStay = 2;    // of those that do not hold it
 constexpr double kSame = 1e-9;  // s
 // Of the width of their panel: longer words are broken into lines, the fewer the better.
 constexpr double kWidths[] = {0.62, 0.42, 0.28};
+constexpr double kShortLine = 12;  // em: a line so short is not broken for a better place
 constexpr double kNarrower = 0.96, kNarrowest = 0.3, kLeading = 1.3;  // em from line to line
 constexpr double kFarPlaces[] = {0.09, 0.14, 0.20, 0.28};  // of words from what they speak of, units of H
 constexpr double kAirOfWords = 0.008;  // to the edge of their panel, units of H
@@ -183,6 +184,7 @@ class Annotations : public Layer {
     const double widest = note.line.box.width();
     if (widest <= kWidths[0] * area.width()) shapes.push_back(note.line);
     for (const double share : kWidths) {
+      if (!shapes.empty() && widest <= kShortLine * style().size) break;
       if (widest <= share * area.width() && !shapes.empty()) continue;
       TextLine line = lay_out_within(stage_->fonts, note.entry->text, style(), share * area.width());
       if (!shapes.empty() && (line.box.width() >= shapes.back().box.width() || !has_room(line))) continue;

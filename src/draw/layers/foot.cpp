@@ -132,7 +132,7 @@ class FootLayer : public Layer {
     const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(shot.k, 0, int(run.answers.size()) - 1))];
     const Camera& camera = panel.camera();
     const bool stands = answer.is_shown && answer.place >= run.foot.heel && answer.place <= run.foot.toe;
-    if (!stands && !is_transparent(*page_)) add_held(run, answer, camera, shot.labels);
+    if (!stands && !is_transparent(*page_)) add_held(run, camera, shot.labels);
     if (!answer.is_shown) return;
     const Point force = (arrow_ / camera.scale) * camera.project_vector(answer.force, camera.focus);
     const ChainLook& look = panel.look();
@@ -144,11 +144,10 @@ class FootLayer : public Layer {
   }
 
  private:
-  // A real foot would tip or rise there; this one is fixed to the ground. On the side that the pressure is not at.
-  void add_held(const FootRun& run, const FootRun::Answer& answer, const Camera& camera, MarkLabels& labels) const {
+  // A real foot would tip or rise there; this one is fixed to the ground.
+  void add_held(const FootRun& run, const Camera& camera, MarkLabels& labels) const {
     const Point middle = camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));
-    const Point away = unit(Point{answer.is_shown && answer.place > run.foot.toe ? -1.0 : 1.0, -1});
-    labels.add({"foot held", held_, places_about(held_, middle, kHeldOff, away)});
+    labels.add({"foot held", held_, places_about(held_, middle, kHeldOff, unit(Point{-1, -1}))});
   }
 
   const Theme* theme_;

@@ -66,7 +66,14 @@ TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {
   };
   EXPECT_GT(shapes(&simulation_, 60), shapes(nullptr, 60)) << "negative control: nothing to compute it from";
   // At the end the fixed foot is pulled down: no ground does that.
-  EXPECT_EQ(shapes(&simulation_, run_.size() - 1), shapes(nullptr, run_.size() - 1));
+  const std::size_t words_and_halo = 2;
+  EXPECT_EQ(shapes(&simulation_, run_.size() - 1), shapes(nullptr, run_.size() - 1) + words_and_halo);
+}
+
+// Where a real foot would tip the picture says that this one is held, and nowhere else.
+TEST_F(FallingHuman, IsSaidToBeHeldWhereARealFootWouldTip) {
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(run_.size() - 1)), HasSubstr("footheld"));
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(0)), Not(HasSubstr("held")));
 }
 
 TEST_F(FallingHuman, TheGroundPushesFromBelowWhereThePressureIsMarked) {
