@@ -5,7 +5,7 @@
 //   operators      in rising order: < <= > >= == != (1 or 0; not chained), + -, * /, unary + -, ^ (right to
 //   left)
 //                  so -2^2 is -4, 2^3^2 is 2^9 and 2^-1 is 0.5
-//   functions      sin cos tan asin acos atan sqrt exp log abs, atan2(y, x), min and max of two or more
+//   functions      sin cos tan asin acos atan tanh sqrt exp log abs sign, atan2(y, x), min and max of two or more
 //
 // There is one value per expression: no assignment, no list. Angles are radians. A number is the nearest
 // double for every scalar, as it is everywhere else in a scene; pi and what is computed have the digits of

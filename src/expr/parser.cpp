@@ -21,8 +21,8 @@ namespace {
 constexpr std::size_t kMaxText = 10000;
 constexpr std::array<std::string_view, 13> kUnits = {"m", "mm", "cm", "km", "s", "ms", "us", "min", "h", "kg", "N", "J", "Hz"};  // of scenes
 
-// What is written as the angle of a place.
-enum class Inverse { none, of_sine, of_cosine, of_tangent };
+// Functions that are written by others: the angle of a place, quotients, comparisons. Their operation is the last one.
+enum class Written { itself, arc_sine, arc_cosine, arc_tangent, hyperbolic_tangent, sign };
 
 struct Function {
   std::string_view name;
@@ -30,7 +30,7 @@ struct Function {
   Name told;
   int arguments = 1;
   bool or_more = false;
-  Inverse inverse = Inverse::none;
+  Written written = Written::itself;
 };
 
 constexpr std::array kFunctions = {
@@ -41,10 +41,12 @@ constexpr std::array kFunctions = {
     Function{"exp", Operation::exponential, {"exp(x)", "e to the power of x"}},
     Function{"log", Operation::logarithm, {"log(x)", "natural logarithm"}},
     Function{"abs", Operation::absolute, {"abs(x)", "without its sign"}},
-    Function{"asin", Operation::arc_tangent2, {"asin(x)", "the angle with this sine: atan2(x, sqrt((1 - x)*(1 + x)))"}, 1, false, Inverse::of_sine},
-    Function{"acos", Operation::arc_tangent2, {"acos(x)", "the angle with this cosine: atan2(sqrt((1 - x)*(1 + x)), x)"}, 1, false, Inverse::of_cosine},
-    Function{"atan", Operation::arc_tangent2, {"atan(x)", "the angle with this tangent: atan2(x, 1)"}, 1, false, Inverse::of_tangent},
+    Function{"asin", Operation::arc_tangent2, {"asin(x)", "the angle with this sine: atan2(x, sqrt((1 - x)*(1 + x)))"}, 1, false, Written::arc_sine},
+    Function{"acos", Operation::arc_tangent2, {"acos(x)", "the angle with this cosine: atan2(sqrt((1 - x)*(1 + x)), x)"}, 1, false, Written::arc_cosine},
+    Function{"atan", Operation::arc_tangent2, {"atan(x)", "the angle with this tangent: atan2(x, 1)"}, 1, false, Written::arc_tangent},
     Function{"atan2", Operation::arc_tangent2, {"atan2(y, x)", "the angle of the place (x, y)"}, 2},
+    Function{"tanh", Operation::subtract, {"tanh(x)", "from -1 to 1, smooth in between: friction is `-5 * tanh(qd1 / 0.01)`"}, 1, false, Written::hyperbolic_tangent},
+    Function{"sign", Operation::subtract, {"sign(x)", "-1, 0 or 1: (x > 0) - (x < 0)"}, 1, false, Written::sign},
     Function{"min", Operation::minimum, {"min(a, b, ..)", "the least"}, 2, true},
     Function{"max", Operation::maximum, {"max(a, b, ..)", "the largest"}, 2, true},
 };
@@ -305,30 +307,40 @@ class Parser {
     close(opening);
     const bool too_many = arguments > function.arguments && !function.or_more;
     if (too_many || arguments < function.arguments) fail_at_count(function, begin, arguments);
-    if (function.inverse != Inverse::none) emit_angle(function.inverse, first);
+    if (function.written != Written::itself) emit_written(function.written, first);
     if (!function.or_more) emit(function.operation);
   }
 
-  // The place whose angle it is, of the argument x that the instructions from `first` on put on the stack.
-  void emit_angle(Inverse inverse, std::size_t first) {
-    if (inverse == Inverse::of_tangent) return emit(Operation::number, 0, 1);
-    const std::vector<Instruction> x(program_.instructions.begin() + std::ptrdiff_t(first), program_.instructions.end());
-    const auto again = [&] {
-      for (const Instruction& one : x) emit(one.operation, one.slot, one.number);
+  // All but the last operation, of the argument x that the instructions from `first` on put on the stack.
+  void emit_written(Written as, std::size_t first) {
+    const std::vector<Instruction> argument(program_.instructions.begin() + std::ptrdiff_t(first), program_.instructions.end());
+    program_.instructions.resize(first);
+    --depth_of_stack_;
+    const auto x = [&] {
+      for (const Instruction& one : argument) emit(one.operation, one.slot, one.number);
     };
-    if (inverse == Inverse::of_cosine) {
-      program_.instructions.resize(first);
-      --depth_of_stack_;
+    const auto number = [this](double value) { emit(Operation::number, 0, value); };
+    // sqrt((1 - x) * (1 + x))
+    const auto other_leg = [&] {
+      number(1), x(), emit(Operation::subtract);
+      number(1), x(), emit(Operation::add);
+      emit(Operation::multiply), emit(Operation::square_root);
+    };
+    switch (as) {
+      case Written::arc_sine: return x(), other_leg();
+      case Written::arc_cosine: return other_leg(), x();
+      case Written::arc_tangent: return x(), number(1);
+      case Written::sign:
+        x(), number(0), emit(Operation::greater);
+        return x(), number(0), emit(Operation::less);
+      // 1 - 2 / (exp(min(2 x, 80)) + 1): beyond 40 it is 1 to the last digit, and exp stays within its range.
+      case Written::hyperbolic_tangent:
+        number(1), number(2);
+        number(2), x(), emit(Operation::multiply);
+        number(80), emit(Operation::minimum), emit(Operation::exponential);
+        return number(1), emit(Operation::add), emit(Operation::divide);
+      case Written::itself: return x();
     }
-    emit(Operation::number, 0, 1);
-    again();
-    emit(Operation::subtract);
-    emit(Operation::number, 0, 1);
-    again();
-    emit(Operation::add);
-    emit(Operation::multiply);
-    emit(Operation::square_root);
-    if (inverse == Inverse::of_cosine) again();
   }
 
   [[noreturn]] void fail_at_count(const Function& function, std::size_t begin, int arguments) const {

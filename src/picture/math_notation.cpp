@@ -15,9 +15,9 @@ constexpr std::array<std::u32string_view, 25> kGreek = {
     U"alpha", U"beta",   U"gamma",   U"delta", U"epsilon", U"zeta",    U"eta",  U"theta", U"iota",
     U"kappa", U"lambda", U"mu",      U"nu",    U"xi",      U"omicron", U"pi",   U"rho",   U"varsigma",
     U"sigma", U"tau",    U"upsilon", U"phi",   U"chi",     U"psi",     U"omega"};
-constexpr std::array<std::u32string_view, 17> kFunctions = {U"sin", U"cos",  U"tan",  U"sqrt", U"exp",
+constexpr std::array<std::u32string_view, 19> kFunctions = {U"sin", U"cos",  U"tan",  U"sqrt", U"exp",
                                                             U"log", U"abs",  U"min",  U"max",  U"atan2",
-                                                            U"det", U"rank", U"diag", U"ln",   U"asin", U"acos", U"atan"};
+                                                            U"det", U"rank", U"diag", U"ln",   U"asin", U"acos", U"atan", U"tanh", U"sign"};
 constexpr std::array<std::u32string_view, 17> kUnits = {U"N",  U"m",   U"s",  U"kg", U"rad", U"J",
                                                         U"W",  U"Hz",  U"mm", U"cm", U"ms",  U"g",
                                                         U"Nm", U"deg", U"px", U"us", U"mJ"};

@@ -118,6 +118,15 @@ TEST(Values, AnglesOfSinesCosinesAndTangents) {
   EXPECT_NEAR(slope("atan(q1)"), 1 / 1.09, 1e-15);
 }
 
+// Oracle: the C library; beyond 20 it is 1 to the last digit, and no range is left.
+TEST(Expression, HyperbolicTangentAndSign) {
+  for (const double x : {-1e300, -800.0, -40.0, -3.0, -0.2, 0.0, 1e-9, 0.5, 2.0, 19.5, 41.0, 360.0, 1e300}) {
+    EXPECT_NEAR(value_at<double>("tanh(q1)", {0, x, 0, 0, 0, 0}), std::tanh(x), 3e-16) << x;
+    EXPECT_EQ(value_at<double>("sign(q1)", {0, x, 0, 0, 0, 0}), double(x > 0) - double(x < 0)) << x;
+  }
+  EXPECT_EQ(value_at<double>("2*tanh(sin(q1) - 1) + sign(-q1)", {0, 0.3, 0, 0, 0, 0}), 2 * value_at<double>("tanh(sin(q1) - 1)", {0, 0.3, 0, 0, 0, 0}) - 1);
+}
+
 TEST(Values, WhatHasNoValueIsNotANumberOrInfinite) {
   EXPECT_TRUE(std::isnan(constant_of("log(-1)")));
   EXPECT_TRUE(std::isnan(constant_of("sqrt(-1)")));

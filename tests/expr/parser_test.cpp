@@ -40,7 +40,7 @@ const Bad kBad[] = {
     {"y_g", 0, "unknown name 'y_g': did you mean 'y_G'?"},
     {"torque", 0, "unknown name 'torque'; known here: t q1 q2 qd1 y_G stiffness pi"},
     {"1 + sine(t)", 4, "unknown function 'sine': did you mean 'sin'?"},
-    {"erf(t)", 0, "unknown function 'erf'; known here: sin cos tan sqrt exp log abs asin acos atan atan2 min max"},
+    {"erf(t)", 0, "unknown function 'erf'; known here: sin cos tan sqrt exp log abs asin acos atan atan2 tanh sign min max"},
     {"2*sin", 2, "'sin' is a function: write sin(..)"},
     {"q1(2)", 0, "an operator is missing between 'q1' and '('"},
     {"pi(2)", 0, "an operator is missing between 'pi' and '('"},

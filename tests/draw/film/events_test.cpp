@@ -72,7 +72,7 @@ TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {
 
 // Where a real foot would tip the picture says that this one is held, and nowhere else.
 TEST_F(FallingHuman, IsSaidToBeHeldWhereARealFootWouldTip) {
-  EXPECT_THAT(test::words_of(film(&simulation_).frame(run_.size() - 1)), HasSubstr("footheld"));
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(run_.size() - 1)), HasSubstr("foot held"));
   EXPECT_THAT(test::words_of(film(&simulation_).frame(0)), Not(HasSubstr("held")));
 }
 
