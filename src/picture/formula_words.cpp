@@ -1,6 +1,7 @@
 #include "picture/formula_words.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.hpp"
 #include "picture/math_notation.hpp"
@@ -36,6 +37,42 @@ std::vector<FormulaPart> formula_parts(std::string_view text) {
   return parts;
 }
 
+namespace {
+
+// A number, signs and brackets before it apart.
+bool is_number(std::string_view word) {
+  const std::size_t first = word.find_first_not_of("+-\u2212([=<>~");
+  if (first == std::string_view::npos) return false;
+  const std::string_view digits = word.substr(first);
+  return digits.find_first_not_of("0123456789.eE+-") == std::string_view::npos && digits.find_first_of("0123456789") == 0;
+}
+
+// "N", "m/s^2", "kg,": what stands behind numbers, punctuation behind it apart.
+bool is_unit(std::string_view word) {
+  constexpr std::array<std::string_view, 22> kUnits = {"N", "m", "s", "kg", "rad", "J", "W", "Hz", "mm", "cm", "km", "ms", "g", "deg", "\u00b0", "%", "min", "h", "px", "K", "Nm", "us"};
+  while (!word.empty() && std::string_view(".,;:)]?!").find(word.back()) != std::string_view::npos) word.remove_suffix(1);
+  const std::string_view first = word.substr(0, word.find_first_of("/^*"));
+  return std::ranges::find(kUnits, first) != kUnits.end();
+}
+
+// Each number in one word with its unit: a line that ended between them would be read as a number without.
+std::vector<std::string> with_units_kept(const std::vector<std::string>& words) {
+  std::vector<std::string> kept;
+  bool is_open = false;  // the last one is a number, or a number with its unit
+  for (const std::string& word : words) {
+    if (is_open && is_unit(word)) {
+      kept.back() += " " + word;
+      is_open = word == "N";  // N m
+    } else {
+      kept.push_back(word);
+      is_open = is_number(word);
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
 std::vector<std::string> formula_words(std::string_view text) {
   std::vector<std::string> words{""};
   for (const FormulaPart& part : formula_parts(text)) {
@@ -47,7 +84,7 @@ std::vector<std::string> formula_words(std::string_view text) {
     }
   }
   if (words.back().empty()) words.pop_back();
-  return words;
+  return with_units_kept(words);
 }
 
 bool is_outside_formula(std::string_view text, std::size_t byte) {

@@ -18,7 +18,7 @@ struct FormulaPart {
 std::vector<FormulaPart> formula_parts(std::string_view text);
 
 // As they are written, so that they are joined by blanks to the same text; a formula is one, and part of the word that
-// it touches.
+// it touches, and a number is one with its unit.
 std::vector<std::string> formula_words(std::string_view text);
 
 // Whether text may be cut before this byte without parting a formula, or a sign from its backslash.

@@ -287,6 +287,9 @@ TEST(FormulaWords, AreWholeFormulasAndTheWordsThatTheyTouch) {
               ElementsAre("torque", "$tau = 5 sin(2 t)$,", "damped"));
   EXPECT_THAT(formula_words("costs $5 a day"), ElementsAre("costs", "$5", "a", "day")) << "a sign without a partner is one";
   EXPECT_THAT(formula_words("\\$5 or \\$6 a day"), ElementsAre("\\$5", "or", "\\$6", "a", "day")) << "no formula between";
+  EXPECT_THAT(formula_words("8 N m at 2.5 s, -9.81 m/s^2 (3 kg) on 4 wheels: 1.2 s later a m"),
+              ElementsAre("8 N m", "at", "2.5 s,", "-9.81 m/s^2", "(3 kg)", "on", "4", "wheels:", "1.2 s", "later", "a", "m"))
+      << "no line ends between a number and its unit";
   EXPECT_TRUE(formula_words("").empty());
   EXPECT_TRUE(formula_words("   ").empty());
 }
