@@ -37,6 +37,20 @@ struct PageTitle {
   double room() const { return lines.empty() ? 0 : (kTitleRoom + double(lines.size() - 1) * kTitleLinePitch) * size; }
 };
 
+// Greedy: as many words as fit into each line, one at least; what is left over stands in the last one.
+template <class Fits>
+std::vector<std::string> broken_into_lines(const std::string& text, int most, Fits fits) {
+  std::vector<std::string> lines;
+  for (const std::string& word : formula_words(text)) {
+    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+    if (lines.empty() || (!fits(longer) && int(lines.size()) < most))
+      lines.push_back(word);
+    else
+      lines.back() = longer;
+  }
+  return lines;
+}
+
 PageTitle page_title(const ContactSheetLook& look) {
   PageTitle title;
   const double width = look.aspect - 2 * size::kMargin;
@@ -46,16 +60,9 @@ PageTitle page_title(const ContactSheetLook& look) {
   if (look.title.empty()) return title;
   for (title.size = look.words_of(size::kTitle) * (look.is_paper() ? kTitleOfPaper : std::min(1.0, look.aspect / kTitleAspect));; title.size *= kSmallerTitle) {
     title.lines.clear();
-    std::string words;
-    bool is_narrow = true;
-    for (const std::string& word : formula_words(look.title)) {
-      const std::string longer = words.empty() ? word : words + " " + word;
-      const bool fits = line_of(longer).advance <= width;
-      if (!fits && !words.empty()) title.lines.push_back(line_of(words));
-      words = fits || words.empty() ? longer : word;
-      is_narrow = is_narrow && line_of(word).advance <= width;
-    }
-    title.lines.push_back(line_of(words));
+    const auto fits_width = [&](const std::string& words) { return line_of(words).advance <= width; };
+    for (const std::string& words : broken_into_lines(look.title, std::numeric_limits<int>::max(), fits_width)) title.lines.push_back(line_of(words));
+    const bool is_narrow = std::ranges::all_of(title.lines, [width](const TextLine& line) { return line.advance <= width; });
     const bool fits = is_narrow && int(title.lines.size()) <= kMostTitleLines;
     if (look.is_paper() && title.size < look.least_text)
       throw Error(ExitCode::usage, "the title has no room above the page where it can be read: take a shorter --title, or a wider page");
@@ -120,18 +127,11 @@ std::string shortened(const std::string& text, double size, double width, const 
   return kEllipsis;
 }
 
-// Greedy: as many words as fit into each line; what is left over is cut off in the last.
+// What is left over is cut off in the last.
 std::vector<std::string> broken_title(const std::string& title, double size, double width, int most,
                                       const ContactSheetLook& look) {
-  std::vector<std::string> lines;
-  for (const std::string& word : formula_words(title)) {
-    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
-    const bool fits = title_line(longer, size, look).advance <= width;
-    if (lines.empty() || (!fits && int(lines.size()) < most))
-      lines.push_back(word);
-    else
-      lines.back() = longer;
-  }
+  std::vector<std::string> lines =
+      broken_into_lines(title, most, [&](const std::string& words) { return title_line(words, size, look).advance <= width; });
   for (std::string& line : lines)
     if (title_line(line, size, look).advance > width) line = shortened(line, size, width, look);
   return lines;
