@@ -57,13 +57,20 @@ Picture Film::page() const {
   return picture;
 }
 
+// Those of a page that is a cell of a sheet, which frames it, have no edge where it has one.
 void Film::draw_cell_frames(Picture& picture) const {
+  const bool is_framed = stage_->page.video.panel_names > 0;
+  const Rect& whole = sheet_.sheet.scene;
+  const Paint paint{stage_->theme.rule, {}, 0};
   for (const PanelCell& cell : view_.cells) {
     const Rect& r = cell.scene;
-    const Polygon outline{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}},
-                          4,
-                          {{}, stage_->theme.rule, size::kFrameLine}};
-    picture.add(outline);
+    const auto edge = [&](Point a, Point b, bool is_outer) {
+      if (!(is_framed && is_outer)) picture.add(Capsule{a, b, size::kFrameLine / 2, paint});
+    };
+    edge({r.x0, r.y0}, {r.x1, r.y0}, r.y0 <= whole.y0 + kRoundOff);
+    edge({r.x1, r.y0}, {r.x1, r.y1}, r.x1 >= whole.x1 - kRoundOff);
+    edge({r.x1, r.y1}, {r.x0, r.y1}, r.y1 >= whole.y1 - kRoundOff);
+    edge({r.x0, r.y1}, {r.x0, r.y0}, r.x0 <= whole.x0 + kRoundOff);
   }
 }
 
