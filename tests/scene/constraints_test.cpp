@@ -154,7 +154,7 @@ TEST_F(SceneConstraints, JointsThatAStartDoesNotNameFollow) {
     }
     EXPECT_LT(std::max(std::abs(x), std::abs(y)), 1e-13) << crank;
     EXPECT_LT(std::max(std::abs(xd), std::abs(yd)), 1e-12) << crank;
-    EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("the joints that the start does not name follow: q = "),
+    EXPECT_THAT(notices_, testing::ElementsAre(HasSubstr("the joints whose angles the constraints decide follow: q = "),
                                                HasSubstr("the rates that the start does not name follow: qd = ")));
   }
   // The linkage is put together in one way all round: whatever the crank's angle, no other way, no turns, and the next is near.
@@ -174,6 +174,9 @@ TEST_F(SceneConstraints, JointsThatAStartDoesNotNameFollow) {
   const std::vector<double> other = prepared("start: {q: {joint1: 1, joint3: 120deg}}\n").q0;
   EXPECT_EQ(other[0], 1);
   EXPECT_NEAR(other[2], -up[2], 1e-9) << "the mirrored one has the same angle between the bars";
+  // Feedback that does not know of the ties is told of.
+  prepared("start: {q: {joint1: 1}}\ntorque: {computed_torque: {kp: 100, kd: 20, q: [1, 0, 0]}}\n");
+  EXPECT_THAT(notices_, testing::Contains(HasSubstr("computed_torque takes M and h of the chain without its constraints")));
   // What no constraint touches stays where it is; limits of joints choose, too.
   Scene geared = read_scene(folder_.write("gear.yaml", "model: {links: [0.3, 0.3, 0.3], joints: RRR}\nstart: {q: {joint1: 60deg}}\n"
                                                        "constraints: [{linear: {coefficients: {joint1: 1, joint2: -2}, value: 0}}]\n"));
@@ -187,7 +190,8 @@ TEST_F(SceneConstraints, JointsThatAStartDoesNotNameFollow) {
     prepared("start: {q: {joint1: 1, joint2: 0}}\n");
     FAIL() << "three bars with two angles given do not close there";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("bars.yaml:2:"), HasSubstr("no pose on the constraints was found at which joint1 = 1, joint2 = 0")));
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("bars.yaml:2:"), HasSubstr("no pose on the constraints was found at which joint1 = 1, joint2 = 0"),
+                                    HasSubstr("or leave it out, `start: {q: {joint1: 1}}`: the others follow")));
   }
   EXPECT_THROW(prepared("start: {q: {joint1: 1, joint2: 0, joint3: 0}}\n"), Error);
   // The start that a refusal advises is on the constraints, and nothing is said of it.

@@ -9,6 +9,7 @@
 #include "scene/run/prepare.hpp"
 #include "scene/text/asked_instant.hpp"
 #include "scene/text/write_scene.hpp"
+#include "sim/simulate.hpp"
 #include "written_scenes.hpp"
 
 namespace chainreel {
@@ -167,6 +168,21 @@ TEST(Fall, TableIsTheSameForAnyNumberOfThreads) {
   EXPECT_TRUE(one.rows[0].fall_time.has_value());
   EXPECT_FALSE(one.rows[3].fall_time.has_value()) << "stiff calves hold";
   EXPECT_EQ(one.rows[3].status, RunStatus::finished);
+}
+
+// From when on a foot is held depends on the motion, not on how many frames show it: the event of the same condition is the oracle.
+TEST(Fall, FootIsHeldFromTheInstantOfTheEventHoweverManyFramesThereAre) {
+  Scene scene = read_scene("assets/scenes/humanoid_fall.yaml");
+  const Simulation simulation = prepare(scene);
+  for (const double fps : {7.0, 10.0, 25.0, 60.0}) {
+    std::vector<double> times;
+    for (int k = 0; k < 5 * int(fps); ++k) times.push_back(k / fps);
+    const Trajectory run = simulate(simulation, times);
+    ASSERT_GT(run.events.size(), 0);
+    const std::optional<double> from = foot_is_held_from(simulation, run);
+    ASSERT_TRUE(from.has_value());
+    EXPECT_NEAR(*from, run.events.t[0], 1e-4) << fps << " Hz: what a quintic through its samples is off by";
+  }
 }
 
 TEST(Fall, NeedsAnEventThatIsOne) {

@@ -18,6 +18,7 @@ constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a co
 constexpr double kConstantSpan = 1e-6, kShareOfConstant = 0.5;  // of its size, of what the eye takes for one; of other plots' height
 constexpr std::size_t kMostOnConstant = 2;  // names of curves that have room beside so low a plot
 constexpr double kRangeAir = 0.06;        // of the range, above and below
+constexpr double kShareOfSteady = 0.2;    // of its size: what changes by less is shown with zero
 constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
 constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
 constexpr double kRoundTime = 0.1;    // s: a clip ends at a multiple that its last frame nearly reaches
@@ -91,6 +92,10 @@ Axis value_axis(const StripData& data) {
     low -= half;
     high += half;
   }
+  // What hardly changes is seen to hardly change.
+  const double span = high - low;
+  if (!data.angles && low > 0 && span < kShareOfSteady * high) low = 0;
+  if (!data.angles && high < 0 && span < kShareOfSteady * -low) high = 0;
   const double air = kRangeAir * (high - low);
   return {data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title, {}};
 }

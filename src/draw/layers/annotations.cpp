@@ -200,11 +200,11 @@ class Annotations : public Layer {
     return shapes;
   }
 
-  // Near what they speak of in each shape, then farther off, then anywhere.
+  // On few lines near what they speak of, then farther off, then on more, then anywhere.
   static std::vector<Rect> places_of(const std::vector<TextLine>& shapes, const Rect& area, Point then, Point first) {
     std::vector<Rect> places;
-    for (const double off : kFarPlaces)
-      for (const TextLine& shape : shapes)
+    for (const TextLine& shape : shapes)
+      for (const double off : kFarPlaces)
         for (const Rect& place : places_about(shape, then, off, first)) places.push_back(moved_into(area, place));
     const auto near = std::ptrdiff_t(places.size());
     for (const TextLine& shape : shapes) {

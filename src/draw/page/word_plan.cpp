@@ -20,7 +20,7 @@ constexpr std::size_t kCrowdOfWords = 60;      // words: of more each has its be
 // What it costs: a second without the word, on what may yield, at a place for each one before it in the list; and a
 // change of places.
 constexpr double kHidden = 9, kPoorGround = 2.7, kWorsePlace = 0.12, kChange = 1.2;
-constexpr double kWorseOfMany = 0.01;  // the same of a place of words with a leader, which have many
+constexpr double kWorseOfMany = 0.005;  // the same of a place of words with a leader, which have many
 constexpr double kCrossedByLeader = 0.3;  // the same for each piece of what is drawn that its line crosses
 constexpr double kEndOfLeader = 0.03;  // units of H: what lies so near to its end is what it leads to
 constexpr int kMostCrossed = 5;

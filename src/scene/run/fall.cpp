@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/parallel.hpp"
+#include "integrate/hermite_span.hpp"
 #include "scene/quantity.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/unread.hpp"
@@ -201,11 +202,28 @@ std::optional<double> foot_is_held_from(const Simulation& simulation, const Traj
   std::vector<double> qdd(std::size_t(chain.nv));
   Workspace ws(chain);
   simulation.torque->leave_pieces();
-  for (int k = 0; k < run.size(); ++k) {
-    const GroundLoad load = ground_load(system, ws, ground_axes(chain), foot.height, run.t[std::size_t(k)], run.q_at(k), run.qd_at(k), qdd);
-    if (!(load.grf >= 0) || !(load.cop >= foot.heel && load.cop <= foot.toe)) return run.t[std::size_t(k)];
+  const auto bears = [&](double t, ConstVec q, ConstVec qd) {
+    const GroundLoad load = ground_load(system, ws, ground_axes(chain), foot.height, t, q, qd, qdd);
+    return load.grf >= 0 && load.cop >= foot.heel && load.cop <= foot.toe;
+  };
+  int k = 0;
+  while (k < run.size() && bears(run.t[std::size_t(k)], run.q_at(k), run.qd_at(k))) ++k;
+  if (k == run.size()) return {};
+  if (k == 0) return run.t.front();
+  // Samples may be far apart: between them it is looked for in the motion through both.
+  constexpr int kHalvings = 40;
+  HermiteSpan span(chain.nq, chain.nv);
+  span.start();
+  double last = run.t[std::size_t(k) - 1], first = run.t[std::size_t(k)];
+  span.begin(last, run.q_at(k - 1), run.qd_at(k - 1));
+  span.end(first, run.q_at(k), run.qd_at(k));
+  std::vector<double> q(std::size_t(chain.nq)), qd(std::size_t(chain.nv));
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (last + first) / 2;
+    span.interpolate(system, middle, q, qd);
+    (bears(middle, q, qd) ? last : first) = middle;
   }
-  return {};
+  return first;
 }
 
 FallEnd what_became_of(const FallTable& table, const FallRow& row) {

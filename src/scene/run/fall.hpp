@@ -86,8 +86,8 @@ std::string falls_to(const FallRow& row);   // on which side of the foot it lies
 // How a run ended, in words that are the same of runs that ended alike: "falls forwards", "tips over the toe, not down", "stands",
 // "stopped by left", ..
 std::string end_of(const FallTable& table, const FallRow& row);
-// The first sample of a run at which the ground would have to press beside the foot, or pull at it: from there on a real foot turns, and
-// this one is held. Nothing where there is no foot, or it bears all of the run.
+// From when on the ground would have to press beside the foot, or pull at it, by the motion through the samples of a run: a real foot turns
+// from there on, and this one is held. Nothing where there is no foot, or it bears all of the run.
 std::optional<double> foot_is_held_from(const Simulation& simulation, const Trajectory& run);
 inline constexpr const char* kFootIsHeld = "the ground would have to press beside the foot, or pull at it: a real one turns from there on, this one is held";
 

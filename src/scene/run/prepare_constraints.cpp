@@ -114,6 +114,13 @@ std::string named_words(const Chain& chain, const std::vector<double>& q, std::s
   return joined(words);
 }
 
+// As `start: {q: {..}}` has them.
+std::string named_keys(const Chain& chain, const std::vector<double>& q, std::span<const std::size_t> names) {
+  std::string keys;
+  for (const std::size_t i : names) keys += (keys.empty() ? "" : ", ") + chain.coordinate_names[i] + ": " + format_significant(q[i], 6);
+  return keys;
+}
+
 // The pose on the constraints at which the joints that the start names stand as it says; where these are more than the ties leave free the
 // first of them do, and the last ones say about where. Nothing where it names none.
 std::optional<std::vector<double>> pose_of_named(const Scene& scene, const Simulation& simulation, const ConstraintSet& set, const Place& start) {
@@ -135,7 +142,10 @@ std::optional<std::vector<double>> pose_of_named(const Scene& scene, const Simul
     if (is_near) return std::move(found.q);
     throw Error(ExitCode::bad_input,
                 "no pose on the constraints was found at which " + named_words(chain, simulation.q0, named) + ", as the start says: with " +
-                    named_words(chain, simulation.q0, named.first(count)) + " the nearest has " + named_words(chain, found.q, about),
+                    named_words(chain, simulation.q0, named.first(count)) + " the nearest has " + named_words(chain, found.q, about) +
+                    ". What is named behind the first " + std::to_string(count) + " may be off by " + format_shortest(kFarthestMove) +
+                    " rad or m: write what the nearest has, or leave it out, `start: {q: {" + named_keys(chain, simulation.q0, named.first(count)) +
+                    "}}`: the others follow",
                 start);
   }
   throw Error(ExitCode::bad_input,
@@ -197,7 +207,7 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                     "}` if it is meant, or name the joints that are to stand so, `start: {q: {" + chain.coordinate_names.front() + ": " +
                     format_significant(simulation.q0.front(), 6) + "}}`: the others follow",
                 start);
-  if (followed && q != simulation.q0) scene.notices.push_back("the joints that the start does not name follow: q = " + bracketed(q));
+  if (followed && q != simulation.q0) scene.notices.push_back("the joints whose angles the constraints decide follow: q = " + bracketed(q));
   const bool follow = follow_named_rates(scene, set, cws, qd);
   if (follow) scene.notices.push_back("the rates that the start does not name follow: qd = " + bracketed(qd));
   const double rate = follow ? 0 : project_velocities(chain, ws, set, cws, q, qd);

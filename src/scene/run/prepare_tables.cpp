@@ -28,17 +28,18 @@ std::vector<NamedControl> controls_of(const Scene& scene, const Chain& chain) {
   return controls;
 }
 
+void say_once(std::vector<std::string>& list, const std::string& text) {
+  if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+}
+
 // What a table is taken for beyond its ends.
 void look_at_span(Scene& scene, const Chain& chain, const std::string& path, const std::optional<Outside>& outside,
                   const std::string& what, const Place& place, const ColumnNames& columns = {}) {
   if (path.empty() || outside == Outside::hold || outside == Outside::zero) return;
   const std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, columns).t;
   const bool late = t.front() > kSame * scene.duration, early = t.back() < (1 - kSame) * scene.duration;
-  const auto say = [](std::vector<std::string>& list, const std::string& text) {
-    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
-  };
   if (t.back() > kOtherUnit * scene.duration)
-    say(scene.doubts, "the table " + path + " goes on until " + format_shortest(t.back()) + " s, of which the run of " + format_shortest(scene.duration) +
+    say_once(scene.doubts, "the table " + path + " goes on until " + format_shortest(t.back()) + " s, of which the run of " + format_shortest(scene.duration) +
            " s sees the beginning: are its times in seconds?");
   if (!late && !early) return;
   const std::string span = "the table " + path + " speaks of " + format_shortest(t.front()) + " to " +
@@ -48,10 +49,10 @@ void look_at_span(Scene& scene, const Chain& chain, const std::string& path, con
                 span + ", and `outside: refuse` stands there: take another duration or table, or outside: hold or zero",
                 place);
   const std::string end = late && early ? "before and behind it" : late ? "before it" : "behind it";
-  say(scene.notices, span + "; " + end + " " + what + " held: write `outside: hold` beside the table if it is meant, or zero, or refuse");
+  say_once(scene.notices, span + "; " + end + " " + what + " held: write `outside: hold` beside the table if it is meant, or zero, or refuse");
 }
 
-void look_at_spans(Scene& scene, const Chain& chain) {
+void look_at_controls(Scene& scene, const Chain& chain) {
   for (const NamedControl& one : controls_of(scene, chain)) {
     const Control& control = *one.control;
     const std::string torque = "the torque of its nearest row is", pose = "the pose of its nearest row is";
@@ -59,6 +60,8 @@ void look_at_spans(Scene& scene, const Chain& chain) {
     look_at_span(scene, chain, control.inverse_of, control.outside, pose, control.place);
     for (const std::optional<Feedback>& feedback : {control.pd, control.computed_torque})
       if (feedback) look_at_span(scene, chain, feedback->trajectory, feedback->outside, pose, control.place);
+    if (control.computed_torque && !scene.constraints.empty())
+      say_once(scene.notices, "computed_torque takes M and h of the chain without its constraints: what these add disturbs it, by less the larger kp and kd are");
   }
 }
 
@@ -130,7 +133,7 @@ void prepare_motion(Scene& scene, Simulation& simulation) {
 
 void prepare_tables(Scene& scene, const Chain& chain) {
   take_start(scene, chain);
-  look_at_spans(scene, chain);
+  look_at_controls(scene, chain);
 }
 
 }  // namespace chainreel
