@@ -59,6 +59,24 @@ double number(const std::string& text) {
   return text.empty() ? std::nan("") : std::stod(text);
 }
 
+// What is damped comes to rest whatever the method did on its way: errors at the end say nothing there, and the chart says so.
+TEST(ChartCommand, WarnsWhereTheRunEndsAtRest) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: {links: [0.5], masses: [1], joints: R}\nstart: {q: [1], qd: [2]}\ngravity: [0, 0, 0]\n"
+                                                   "torque: [-10 * qd1]\nduration: 3\n");
+  const auto warned = [&](const Words& more) {
+    Words words{"chart", scene, "--methods", "rk4", "--runs", "1", "--longest", "5ms", "--force", "--json", "-o", folder.file("c.svg")};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    const Json json = Json::parse(result.out);
+    return std::pair{result.err, json.at("warnings").size()};
+  };
+  EXPECT_THAT(warned({}), testing::Pair(HasSubstr("the run ends at rest"), 1u));
+  EXPECT_THAT(warned({"--set", "duration=0.05"}), testing::Pair(Not(HasSubstr("at rest")), 0u));
+  EXPECT_THAT(warned({"--error", "energy"}), testing::Pair(Not(HasSubstr("at rest")), 0u));
+}
+
 TEST(MethodsCommand, ListsEveryRowOfTheRegistry) {
   const ProgramResult result = run_program({"methods", "--json"});
   ASSERT_EQ(result.status, 0) << result.err;

@@ -93,6 +93,27 @@ INSTANTIATE_TEST_SUITE_P(
         Tabled{"methods", {"stability", "assets/scenes/pp_spring.yaml", "--methods", "rk4,dop853", "--set", "duration=0.2"}, "energy_error"}),
     [](const auto& param) { return std::string(param.param.name); });
 
+// A row a millisecond without a film of 1000 frames a second; times are exact: 0.003, not 0.0030000000000000001 and its kin.
+TEST(SimulateEvery, GivesTheTimeBetweenRows) {
+  const TemporaryFolder folder;
+  const auto table = [&](const Words& more) {
+    Words words{"simulate", "rr_free", "--set", "duration=0.05", "--columns", "t,q", "--force", "-o", folder.file("a.csv")};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  ASSERT_EQ(table({"--every", "1ms"}).status, 0);
+  const std::string every = read_whole_file(folder.file("a.csv"));
+  EXPECT_EQ(std::ranges::count(every, '\n'), 52);
+  EXPECT_THAT(every, testing::AllOf(HasSubstr("\n0.003,"), HasSubstr("\n0.047,"), HasSubstr("\n0.05,")));
+  ASSERT_EQ(table({"--set", "video.fps=1000"}).status, 0);
+  EXPECT_EQ(read_whole_file(folder.file("a.csv")), every);
+  ASSERT_EQ(table({"--every", "15ms"}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("a.csv")), testing::AllOf(HasSubstr("\n0.045,"), HasSubstr("\n0.05,"))) << "the end is there in any case";
+  for (const char* wrong : {"0", "-1ms", "1e-12", "soon"}) EXPECT_NE(table({"--every", wrong}).status, 0) << wrong;
+  EXPECT_EQ(table({"--every", "1ms", "--every-step"}).status, 2);
+  EXPECT_THAT(table({"--peaks", "qd1"}).err, HasSubstr("--peaks: qd1 is one of qd: ask for qd"));
+}
+
 TEST(SimulateTables, AreTheSameMotionInEveryFormat) {
   const TemporaryFolder folder;
   const std::string csv = folder.file("a.csv"), json = folder.file("a.json"), npz = folder.file("a.npz");

@@ -138,6 +138,7 @@ class Models(FolderTest):
                          'take step=None, method="radau5", or accuracy="0.1 px"; step=0.01')
         self.assertEqual(in_python("--set video.fps=120 --set step=1"), 'set={"video.fps": 120, "step": 1}')
         self.assertEqual(in_python("-o e.txt: pictures"), "e.txt: pictures")
+        self.assertEqual(in_python("at 1 place (--set slow_motion=none): t = 1 s"), 'at 1 place (slow_motion="none"): t = 1 s')
         self.assertEqual(in_python("no setting"), "no setting")
         with self.assertWarns(cr.RunWarning) as warned:
             cr.Scene("rr_free", set={"method": "explicit_euler", "step": 0.01, "duration": 1, "accuracy": None}).run()

@@ -21,6 +21,7 @@
 #include "scene/run/title.hpp"
 #include "sim/choice/work_precision.hpp"
 #include "sim/plots.hpp"
+#include "sim/simulate.hpp"
 
 namespace chainreel {
 namespace {
@@ -266,6 +267,32 @@ std::vector<std::string> highlighted(const ChartOptions& options, const std::vec
   return names;
 }
 
+// Errors at the end say nothing of the way there where all comes to rest: what is damped forgets them.
+std::string doubt_of_end(Simulation& simulation) {
+  constexpr int kInstants = 200;
+  constexpr double kAtRest = 1e-3;  // of the largest rate
+  const MethodSetting own{simulation.method, simulation.options, simulation.step};
+  MethodSetting exact{&find_method("dop853"), own.options, 0};
+  exact.options.tolerance = 1e-8;
+  std::vector<double> times(kInstants + 1);
+  for (int k = 0; k <= kInstants; ++k) times[std::size_t(k)] = simulation.duration * k / kInstants;
+  apply(exact, simulation);
+  const Trajectory run = simulate(simulation, times, [](double) { return interrupted(); });
+  apply(own, simulation);
+  throw_if_interrupted();
+  if (!is_complete(run.status)) return "";
+  const auto rate_at = [&run](int k) {
+    double rate = 0;
+    for (const double one : run.qd_at(k)) rate = std::max(rate, std::abs(one));
+    return rate;
+  };
+  double largest = 0;
+  for (int k = 0; k < run.size(); ++k) largest = std::max(largest, rate_at(k));
+  if (!(largest > 0) || rate_at(run.size() - 1) > kAtRest * largest) return "";
+  return "the run ends at rest, where errors of the way there are forgotten: the chart says nothing of that way; take a shorter duration, "
+         "--error energy, or `chainreel check SCENE --all`, which judges the way";
+}
+
 void run_chart(const ChartOptions& options) {
   check_figure_size(options.figure);
   errors_to_reach(options.reach);  // before anything is measured
@@ -274,6 +301,8 @@ void run_chart(const ChartOptions& options) {
   PreparedScene prepared = load_motion(options.scene, overrides_of(options.common), options.panel, options.common.quiet);
   require_computed_run(prepared.scene, "chart");
   const FigureFiles files(options.figure, "out/" + prepared.scene.name + "_chart.png", options.common.force);
+  const std::string doubt = options.judges_energy() ? "" : doubt_of_end(prepared.simulation);
+  if (!doubt.empty()) tell_warnings({prepared.scene.name + ": " + doubt});
   Measured measured = measure_all(prepared, chosen, options);
   WorkPrecision data = data_of(prepared, measured, options);
   for (const std::string& name : lit)
@@ -284,7 +313,11 @@ void run_chart(const ChartOptions& options) {
   const ChartLook look = chart_look(options.figure, prepared.scene, fonts);
   const ChartCost panels[] = {ChartCost::seconds, ChartCost::evaluations};
   light_curves(data, panels, lit);
-  const auto report = [&] { return json_of(options.scene, measured, options); };
+  const auto report = [&] {
+    Json json = json_of(options.scene, measured, options);
+    json["warnings"] = doubt.empty() ? Json::array() : Json{doubt};
+    return json;
+  };
   const auto written = files.write([&] { return work_precision_chart(data, panels, look); },
                                    {csv_of(options.scene, measured), report}, fonts);
   tell_files(options.common, written, report, [&] { print_summary(data, measured, options); });

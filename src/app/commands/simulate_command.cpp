@@ -1,6 +1,7 @@
 // chainreel simulate SCENE -o FILE.csv
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -20,6 +21,8 @@
 #include "app/report/peaks.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "scene/film_clock.hpp"
+#include "scene/quantity.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 
@@ -34,18 +37,32 @@ struct SimulateOptions {
   std::string columns = kUsualColumns;
   std::string peaks;  // columns of which they are asked for
   bool every_step = false;
+  std::string every;  // time between rows; that of frames where it is empty
   int panel = 0;  // from 1; 0: all
   CommonOptions common;
 };
 
-Trajectory run_scene(const PreparedFilm& film, const PreparedScene& prepared, bool every_step) {
+// The instants of rows `every` seconds, or of frames: "1ms". Whole parts of a second are divided by, so that 3 ms are 0.003.
+std::vector<double> row_times(const Scene& scene, const std::string& every) {
+  if (every.empty()) return frame_times(scene);
+  const double between = parse_quantity(every, {"--every"}, "s"), rate = std::round(1 / between);
+  const double rows = scene.duration / between;
+  if (!(between > 0) || !(rows <= kMostFrames))
+    throw Error(ExitCode::usage, "--every " + every + " must be a time above 0, like 1ms, and give no more than ten million rows");
+  const bool is_part = std::abs(rate * between - 1) < 1e-12;
+  std::vector<double> times;
+  for (int k = 0; k <= int(rows); ++k) times.push_back(is_part ? k / rate : k * between);
+  return times;
+}
+
+Trajectory run_scene(const PreparedFilm& film, const PreparedScene& prepared, const SimulateOptions& options) {
   Ticker ticker(film.quiet);
   const auto stop = [&](double t) {
     if (ticker.is_due()) ticker.say(simulating_text(film, prepared), part_done(prepared.simulation, t));
     return interrupted();
   };
-  if (every_step) return simulate_every_step(prepared.simulation, stop);
-  std::vector<double> times = frame_times(prepared.scene);
+  if (options.every_step) return simulate_every_step(prepared.simulation, stop);
+  std::vector<double> times = row_times(prepared.scene, options.every);
   const double duration = prepared.scene.duration;
   // One row at the end exactly, and no frame within round-off before it.
   while (!times.empty() && times.back() > duration - same_instant(prepared.simulation)) times.pop_back();
@@ -70,7 +87,7 @@ std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const std::vec
 Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, TableFiles& files,
                     const Wanted& wanted, const SimulateOptions& options, bool alone) {
   say_choice(prepared, options.common.quiet);
-  const Trajectory trajectory = run_scene(film, prepared, options.every_step);
+  const Trajectory trajectory = run_scene(film, prepared, options);
   throw_if_interrupted();
   const DataTable table =
       motion_table(prepared.simulation, trajectory, wanted.columns.empty() ? usual_columns(prepared.simulation.chain) : wanted.columns);
@@ -111,6 +128,7 @@ void tighten(Scene& scene) {
 }
 
 void run_simulate(const SimulateOptions& options) {
+  if (options.every_step && !options.every.empty()) throw Error(ExitCode::usage, "--every gives rows at instants, --every-step at the method's steps: take one of them");
   Scene scene = read_scene(options.scene, overrides_of(options.common));
   tighten(scene);
   const PreparedFilm film = film_of(std::move(scene), false, options.common.quiet);
@@ -166,9 +184,10 @@ void add_simulate_command(CommandLine& app) {
                       "looked for at 2000 instants and closely about what is found");
   add_panel_option(*command, options->panel);
   command->add_flag("--every-step", options->every_step, "a row a step instead of a row a frame");
+  command->add_option("--every", options->every, "time between rows, like 1ms, instead of that between frames");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Rows are as many a second as frames of the film: --set video.fps=1000 for a row a millisecond. Where `method: auto` chooses, a table\n"
+  command->footer("Rows are as many a second as frames of the film: --every 1ms for a row a millisecond. Where `method: auto` chooses, a table\n"
       "is exact to 1e-8 of the room that the motion takes, as far as that can be had, unless the scene says `accuracy`; `render -o NAME.csv` writes the numbers that the film shows.\n"
       "Example: chainreel simulate pp_free -o out/pp_free.csv -o out/pp_free.npz\n"
       "         chainreel simulate rr_free --columns t,q,qdd,tau -o -\n"

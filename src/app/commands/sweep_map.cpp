@@ -43,6 +43,11 @@ std::size_t find_column(const std::vector<std::string>& header, const Grid& grid
   if (found < header.size()) return found;
   if (wanted.empty())
     throw Error(ExitCode::usage, "a map shows one column of the table: name it with --map, of " + joined(names) + ", or give --peaks, whose first it shows otherwise");
+  std::vector<std::string> of_joints;
+  for (const std::string& name : names)
+    if (const std::string plain = plain_name(name); plain.substr(0, plain.find_last_not_of("0123456789") + 1) == wanted && std::ranges::count(of_joints, plain) == 0)
+      of_joints.push_back(plain);
+  if (!of_joints.empty()) throw Error(ExitCode::usage, "--map " + wanted + ": a map shows one of them: " + joined(of_joints));
   throw Error(ExitCode::usage, "--map " + wanted + ": the table has no such column:" + did_you_mean(wanted, names) + " It has " + joined(names));
 }
 

@@ -261,6 +261,9 @@ std::vector<MotionColumn> parse_columns(const std::string& text, const std::stri
   std::vector<MotionColumn> columns;
   for (const std::string& word : separated(text, ',')) {
     const std::optional<MotionColumn> column = value_named<MotionColumn>(word);
+    const std::string stem = word.substr(0, word.find_last_not_of("0123456789") + 1);
+    if (!column && value_named<MotionColumn>(stem))
+      throw Error(ExitCode::usage, option + ": " + word + " is one of " + stem + ": ask for " + stem + ", which has all of them");
     if (!column) throw Error(ExitCode::usage, option + ": each " + misnamed(names_of(MotionColumn{}), word));
     if (std::find(columns.begin(), columns.end(), *column) != columns.end())
       throw Error(ExitCode::usage, option + " names " + word + " twice");

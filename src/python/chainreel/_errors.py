@@ -6,7 +6,7 @@ import json
 import re
 from typing import List, NamedTuple, Optional
 
-_SETTING = r"--set (?:'([^']+)'|([^\s,;`'\"]+))"
+_SETTING = r"--set (?:'([^']+)'|([^\s,;`'\"]*[^\s,;:.)`'\"]))"
 _SETTINGS = re.compile(rf"{_SETTING}(?: {_SETTING})*")
 
 
