@@ -271,14 +271,17 @@ std::vector<std::string> highlighted(const ChartOptions& options, const std::vec
 std::string doubt_of_end(Simulation& simulation) {
   constexpr int kInstants = 200;
   constexpr double kAtRest = 1e-3;  // of the largest rate
+  constexpr long kMostEvaluations = 1000000;  // a second or so: of a run that takes more nothing is said
   const MethodSetting own{simulation.method, simulation.options, simulation.step};
   MethodSetting exact{&find_method("dop853"), own.options, 0};
   exact.options.tolerance = 1e-8;
   std::vector<double> times(kInstants + 1);
   for (int k = 0; k <= kInstants; ++k) times[std::size_t(k)] = simulation.duration * k / kInstants;
   apply(exact, simulation);
+  simulation.most_evaluations = kMostEvaluations;
   const Trajectory run = simulate(simulation, times, [](double) { return interrupted(); });
   apply(own, simulation);
+  simulation.most_evaluations = 0;
   throw_if_interrupted();
   if (!is_complete(run.status)) return "";
   const auto rate_at = [&run](int k) {

@@ -16,10 +16,10 @@ std::span<const Name> names_of(LimitPolicy) {
 }
 
 std::string to_string(const LimitEvent& event) {
-  int digits = 6;  // or as many as tell the two apart
-  while (digits < 17 && format_significant(event.limit, digits) == format_significant(event.value, digits)) ++digits;
-  return "joint '" + event.joint + "' passed its " + event.quantity + " limit " +
-         format_significant(event.limit, digits) + " with " + format_significant(event.value, digits) +
+  // Where the instant of the passage itself is known, the value is the limit, but for rounding.
+  const std::string limit = format_significant(event.limit, 6);
+  const bool is_there = format_significant(std::abs(event.limit), 6) == format_significant(std::abs(event.value), 6);
+  return "joint '" + event.joint + "' passed its " + event.quantity + " limit " + limit + (is_there ? "" : " with " + format_significant(event.value, 6)) +
          " at t = " + format_significant(event.t, 6) + " s";
 }
 
