@@ -245,6 +245,24 @@ std::vector<AuditRow> audit_rows(const Json& audit) {
   return table;
 }
 
+namespace {
+
+// Of a few panels each one's, in their order: of some comparisons they are the point. "" where none is known.
+std::string errors_of(const std::vector<Json>& runs) {
+  constexpr std::size_t kMostNamed = 4;
+  std::string errors;
+  bool any = false;
+  for (const Json& run : runs) {
+    const std::string error = number_text(run, "energy_error", kErrorDigits, " J");
+    any = any || !error.empty();
+    errors += (errors.empty() ? "" : ", ") + (error.empty() ? "unknown" : error);
+  }
+  if (!any || runs.size() > kMostNamed) return "";
+  return (runs.size() == 1 ? "energy error " : "energy errors ") + errors;
+}
+
+}  // namespace
+
 std::string audit_facts(const Json& audit, double film_seconds) {
   std::vector<std::string> facts;
   const std::vector<Json> runs = runs_of(audit.is_object() ? audit : Json::object());
@@ -253,9 +271,7 @@ std::string audit_facts(const Json& audit, double film_seconds) {
   facts.push_back(format_fixed(film_seconds, 2) + " s");
   const std::string frames = runs.empty() ? "" : count_text(runs.front(), "frames");
   if (!frames.empty()) facts.push_back(frames + " frames");
-  const std::string error =
-      runs.size() == 1 ? number_text(runs.front(), "energy_error", kErrorDigits, " J") : "";
-  if (!error.empty()) facts.push_back("energy error " + error);
+  if (const std::string errors = errors_of(runs); !errors.empty()) facts.push_back(errors);
   std::string text;
   for (const std::string& fact : facts)
     if (!fact.empty()) text += (text.empty() ? "" : " \u00B7 ") + fact;
