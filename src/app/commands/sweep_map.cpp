@@ -21,6 +21,11 @@ namespace {
 const std::string kPeak = "peak_";
 constexpr const char* kGood = "good";  // of each row: 1, or 0 where the run failed
 
+// "qd" of "qd1".
+std::string without_number(const std::string& name) {
+  return name.substr(0, name.find_last_not_of("0123456789") + 1);
+}
+
 // "qd1" of "peak_qd1 [rad/s]".
 std::string plain_name(const std::string& column) {
   const std::string name = ColumnName(column).name;
@@ -45,7 +50,7 @@ std::size_t find_column(const std::vector<std::string>& header, const Grid& grid
     throw Error(ExitCode::usage, "a map shows one column of the table: name it with --map, of " + joined(names) + ", or give --peaks, whose first it shows otherwise");
   std::vector<std::string> of_joints;
   for (const std::string& name : names)
-    if (const std::string plain = plain_name(name); plain.substr(0, plain.find_last_not_of("0123456789") + 1) == wanted && std::ranges::count(of_joints, plain) == 0)
+    if (const std::string plain = plain_name(name); without_number(plain) == wanted && std::ranges::count(of_joints, plain) == 0)
       of_joints.push_back(plain);
   if (!of_joints.empty()) throw Error(ExitCode::usage, "--map " + wanted + ": a map shows one of them: " + joined(of_joints));
   throw Error(ExitCode::usage, "--map " + wanted + ": the table has no such column:" + did_you_mean(wanted, names) + " It has " + joined(names));
@@ -55,7 +60,7 @@ std::size_t find_column(const std::vector<std::string>& header, const Grid& grid
 std::string title_of_column(const std::string& column) {
   const ColumnName name(column);
   std::string plain = plain_name(column);
-  const std::string stem = plain.substr(0, plain.find_last_not_of("0123456789") + 1);
+  const std::string stem = without_number(plain);
   const bool is_symbol = stem == "q" || stem == "qd" || stem == "qdd" || stem == "tau" || stem == "lambda";
   if (!is_symbol) std::ranges::replace(plain, '_', ' ');
   const bool is_peak = name.name.starts_with(kPeak);

@@ -65,13 +65,23 @@ bool has_hash_of_rows(const std::string& path) {
   return false;
 }
 
+[[noreturn]] void refuse_changed(const std::string& path) {
+  throw Error(ExitCode::bad_input, "has been changed or cut off since it was written: compute it again, with --force", {path});
+}
+
+// A table that was changed is refused, or computed anew over it.
+bool is_whole(const std::string& path, bool overwrite) {
+  const bool has_hash = has_hash_of_rows(path);
+  if (!has_hash && !overwrite) refuse_changed(path);
+  return has_hash;
+}
+
 }  // namespace
 
 GrowingTable::GrowingTable(const std::string& path, const std::string& head, std::size_t first, std::size_t rows, bool overwrite)
     : path_(path), hidden_((fs::path(path).parent_path() / ("." + fs::path(path).filename().string() + ".rows")).string()),
       head_size_(head.size()), overwrite_(overwrite) {
-  if (const Found whole = look_at(path, head, first); whole.has_head && whole.rows == rows && (!overwrite || has_hash_of_rows(path))) {
-    require_hash_of_rows(path);
+  if (const Found whole = look_at(path, head, first); whole.has_head && whole.rows == rows && is_whole(path, overwrite)) {
     finished_ = true;
     before_ = whole.rows;
     // As a process leaves it that was killed between the two.
@@ -140,8 +150,7 @@ std::string line_of_hash(const std::string& path) {
 }
 
 void require_hash_of_rows(const std::string& path) {
-  if (!has_hash_of_rows(path))
-    throw Error(ExitCode::bad_input, "has been changed or cut off since it was written: compute it again, with --force", {path});
+  if (!has_hash_of_rows(path)) refuse_changed(path);
 }
 
 void GrowingTable::commit(const std::function<std::string(const std::string& csv)>& file_of) {
