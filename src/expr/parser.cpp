@@ -46,7 +46,7 @@ constexpr std::array kFunctions = {
     Function{"atan", Operation::arc_tangent2, {"atan(x)", "the angle with this tangent: atan2(x, 1)"}, 1, false, Written::arc_tangent},
     Function{"atan2", Operation::arc_tangent2, {"atan2(y, x)", "the angle of the place (x, y)"}, 2},
     Function{"tanh", Operation::subtract, {"tanh(x)", "from -1 to 1, smooth in between: friction is `-5 * tanh(qd1 / 0.01)`"}, 1, false, Written::hyperbolic_tangent},
-    Function{"sign", Operation::subtract, {"sign(x)", "-1, 0 or 1: (x > 0) - (x < 0)"}, 1, false, Written::sign},
+    Function{"sign", Operation::add, {"sign(x)", "-1, 0 or 1: (x > 0) - (x < 0)"}, 1, false, Written::sign},
     Function{"min", Operation::minimum, {"min(a, b, ..)", "the least"}, 2, true},
     Function{"max", Operation::maximum, {"max(a, b, ..)", "the largest"}, 2, true},
 };
@@ -332,7 +332,8 @@ class Parser {
       case Written::arc_tangent: return x(), number(1);
       case Written::sign:
         x(), number(0), emit(Operation::greater);
-        return x(), number(0), emit(Operation::less);
+        x(), number(0), emit(Operation::less), emit(Operation::subtract);
+        return number(0), x(), emit(Operation::multiply);  // what is no number has no sign
       // 1 - 2 / (exp(min(2 x, 80)) + 1): beyond 40 it is 1 to the last digit, and exp stays within its range.
       case Written::hyperbolic_tangent:
         number(1), number(2);

@@ -45,6 +45,9 @@ double gap_between(const MathAtom& before, const MathAtom& after, bool in_script
   if (before.kind == AtomKind::comma) return kThin;
   if (either(AtomKind::product)) return kThin / 2;
   if (before.kind == AtomKind::sign || is_bracketed(after) || before.kind == AtomKind::open) return 0;
+  // Words between quotes bring the blanks that they need.
+  if (after.kind == AtomKind::function && (after.text.starts_with(U',') || after.text.starts_with(U' '))) return 0;
+  if (before.kind == AtomKind::function && before.text.ends_with(U' ')) return 0;
   if (before.kind == AtomKind::function || after.kind == AtomKind::function) return kThin;
   return after.blank_before && after.kind != AtomKind::comma ? kThin : 0;
 }

@@ -36,7 +36,7 @@ enum class LayerNeeds {
   ROW(shadow, "shadow", 13, nothing,                                                                        \
       "seen obliquely: the soft shadow of a light from above, darker where a body touches the ground")      \
   ROW(chain_rails, "chain", 0, nothing, "")                                                                 \
-  ROW(trail, "trail", 2, end_effector, "the last second of the end effector's way, a dot every 0.1 s")      \
+  ROW(trail, "trail", 2, end_effector, "the last second of the end effector's way (`style: {trail: all}`: all of it), a dot every 0.1 s")      \
   ROW(slider_springs, "springs", 8, nothing,                                                                \
       "torques that are linear in a coordinate or a rate as the springs and dampers that they are")         \
   ROW(chain_links, "chain", 0, nothing, "")                                                                 \

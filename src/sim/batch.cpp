@@ -16,6 +16,7 @@ class GivenTorque final : public TorqueLaw {
   void evaluate(const Chain&, Workspace&, double, ConstVec, ConstVec, Vec result) override {
     std::copy(tau.begin(), tau.end(), result.begin());
   }
+  double price(const Chain&) const override { return 0; }
   std::vector<double> tau;
 };
 

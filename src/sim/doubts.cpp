@@ -15,7 +15,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kAuditRounding = 1e-10;     // of all energies at play: below it an audit error says nothing
-constexpr double kNoEnergy = 1e-20;     // J/kg: rates of 1e-10 m/s, of a chain that is held or at rest
+constexpr double kNoEnergy = 1e-16;     // J/kg: rates of 1e-8 m/s, of a chain that is held or at rest
 constexpr int kSteps = 32;              // that are taken again
 constexpr double kNotable = 1e-3;       // of the fastest freedom's rate: slower ones are measured by it
 constexpr double kStill = 1e-9;         // rad/s or m/s: no motion
@@ -201,7 +201,9 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
   add(doubt_of_rest(simulation));
   add(doubt_of_energy(simulation, trajectory, audit, chosen_by));
   if (trajectory.rows > 0) add(doubt_constraints(trajectory, chosen_by));
-  if (simulation.step > 0 && !follows_a_curve(simulation)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));
+  // Steps end at corners of the state; taken again across one they would be others. What `auto` took has been judged.
+  const bool has_corners = simulation.torque && simulation.torque->corners() != nullptr;
+  if (simulation.step > 0 && !follows_a_curve(simulation) && !(has_corners && chosen_by)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));
   add(doubt_between(simulation, trajectory));
   return doubts;
 }

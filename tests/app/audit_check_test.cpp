@@ -81,8 +81,59 @@ TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
   folder.write("rr.urdf", before);
   EXPECT_EQ(asked(film).status, 0);
   EXPECT_EQ(run_program({"check", scene, "--scene", scene}).status, 2);
-  ASSERT_EQ(run_program({"ellipse", urdf, "--pose", "0,1", "-o", folder.file("e.png"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_program({"sheet", scene, "-o", folder.file("e.png"), "--quiet"}).status, 0);
   EXPECT_THAT(asked(folder.file("e.png")).err, HasSubstr("is a figure"));
+}
+
+// Pictures without an audit: scenes of the name that they remember are looked for, models of figures, too; and what is not known is said.
+TEST(FilmOfToday, FindsWhatPicturesWithoutAuditsShow) {
+  const TemporaryFolder folder;
+  const std::string before = read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf"), mass = "<mass value=\"";
+  for (const char* name : {"docs", "scenes"}) fs::create_directory(folder.file(name));
+  const std::string urdf = folder.write("scenes/rr.urdf", before);
+  const std::string scene = folder.write("scenes/own.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.2\nmethod: rk4\nvideo: {width: 160, height: 90}\n");
+  ASSERT_EQ(run_program({"snapshot", scene, "--quiet", "--at", "0.1", "-o", folder.file("docs/s.png"), "-o", folder.file("docs/s.svg")}).status, 0);
+  ASSERT_EQ(run_program({"ellipse", urdf, "--pose", "0,1", "-o", folder.file("docs/e.png"), "--quiet"}).status, 0);
+  const auto asked = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"check", folder.file("docs"), "--today"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  EXPECT_EQ(asked().status, 0) << asked().err;
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("s.png is what "), HasSubstr("s.svg is what "), HasSubstr("e.png is what ")));
+  std::string heavier = before;
+  heavier.replace(heavier.find(mass), mass.size(), mass + "1");
+  folder.write("scenes/rr.urdf", heavier);
+  EXPECT_EQ(asked().status, 1);
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("s.png is NOT what "), HasSubstr("s.svg is NOT what "), HasSubstr("e.png is NOT what "), HasSubstr("the model file has other bytes")));
+  // Nothing is run for which nobody knows what --set changed.
+  const std::string commands = asked({"--commands"}).out;
+  EXPECT_THAT(commands, AllOf(HasSubstr("# what --set changed is not known, as no audit lies beside it: chainreel snapshot"), HasSubstr("--at 0.1s"), HasSubstr("chainreel ellipse ")));
+  fs::rename(scene, folder.file("scenes/other.yaml"));
+  EXPECT_THAT(asked().err, AllOf(HasSubstr("2 files are not asked about"), HasSubstr("s.png"), HasSubstr("s.svg")));
+}
+
+// What is gone comes back as it was: a picture with its instant, a film with its words.
+TEST(FilmOfToday, BringsBackPicturesOfTheirInstantsAndTexts) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nstart: {q: [1, 0]}\nduration: 0.2\nmethod: rk4\nvideo: {width: 160, height: 90}\n");
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "--at", "0.1", "-o", folder.file("docs/s.png"), "-o", folder.file("docs/s.gif")}).status, 0);
+  const std::string picture = read_whole_file(folder.file("docs/s.png"));
+  const auto asked = [&] { return run_program({"check", folder.file("docs"), "--today"}); };
+  const auto make_anew = [&] {
+    RunOptions shell;
+    shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
+    EXPECT_EQ(run_command({"sh", "-e", "-c", run_program({"check", folder.file("docs"), "--today", "--commands"}).out}, shell).status, 0);
+  };
+  fs::remove(folder.file("docs/s.png"));
+  EXPECT_THAT(asked().out, HasSubstr("s.png is gone"));
+  make_anew();
+  EXPECT_EQ(read_whole_file(folder.file("docs/s.png")), picture);
+  fs::remove(folder.file("docs/s.txt"));
+  EXPECT_EQ(asked().status, 1);
+  EXPECT_THAT(asked().out, HasSubstr("s.txt is gone"));
+  make_anew();
+  EXPECT_EQ(asked().status, 0) << asked().out;
 }
 
 // A folder of films is asked as a whole: each finds its own scene and the changes that it was made with.
@@ -95,7 +146,6 @@ TEST(FilmOfToday, OfAFolderFindsItsScenesAndNamesWhatChanged) {
   const std::string a = folder.write("scenes/a.yaml", page), b = folder.write("scenes/b.yaml", page + "compare: [{step: 0.01}, {step: 0.02}]\n");
   ASSERT_EQ(run_program({"render", a, "--quiet", "-o", folder.file("docs/a.mp4")}).status, 0);
   ASSERT_EQ(run_program({"render", b, "--quiet", "-o", folder.file("docs/b.webm"), "--set", "duration=0.08", "--theme", "dark"}).status, 0);
-  ASSERT_EQ(run_program({"ellipse", folder.file("scenes/rr.urdf"), "--pose", "0,1", "-o", folder.file("docs/e.png"), "--quiet"}).status, 0);
   const auto asked = [&] { return run_program({"check", folder.file("docs"), "--today"}); };
   const ProgramResult same = asked();
   EXPECT_EQ(same.status, 0) << same.out << same.err;
@@ -141,8 +191,11 @@ TEST(FilmOfToday, OfAFolderFindsItsScenesAndNamesWhatChanged) {
   EXPECT_THAT(asked().err, HasSubstr("is not there any more: name it, --scene"));
   fs::rename(folder.file("a.yaml"), folder.file("scenes/a.yaml"));
   fs::remove(folder.file("docs/a.json"));
-  EXPECT_THAT(asked().err, AllOf(HasSubstr("2 files are not asked about"), HasSubstr("a.mp4"), HasSubstr("e.png")));
+  EXPECT_THAT(asked().out, HasSubstr("a.mp4 is what ")) << "found by the name that it remembers";
+  fs::rename(folder.file("scenes/a.yaml"), folder.file("scenes/c.yaml"));
+  EXPECT_THAT(asked().err, AllOf(HasSubstr("1 file is not asked about"), HasSubstr("a.mp4")));
   EXPECT_EQ(run_program({"check", folder.file("docs/a.mp4"), "--today"}).status, 3);
+  fs::rename(folder.file("scenes/c.yaml"), folder.file("scenes/a.yaml"));
   EXPECT_EQ(run_program({"check", folder.file("docs/a.mp4"), "--scene", a}).status, 0);
   EXPECT_EQ(run_program({"check", folder.file("docs")}).status, 2);
   EXPECT_EQ(run_program({"check", folder.file("scenes"), "--today"}).status, 3);

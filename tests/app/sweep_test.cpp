@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/hash.hpp"
 #include "core/json.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -244,15 +245,21 @@ TEST(SweepTable, ManyThreadsSharesAndRepeatsGiveTheSameBytes) {
   EXPECT_FALSE(fs::exists(folder.file("x.csv")));
 }
 
+// The hidden file of a run that was killed: the head of a table, rows with what tells that they are whole, and what it was writing.
+std::string kept_rows(const std::string& head, const std::string& rows, const std::string& begun) {
+  return head + rows + "# so far: " + sha256_of(rows) + "\n" + begun;
+}
+
 TEST(SweepTable, GoesOnBehindTheLastWholeRow) {
   const TemporaryFolder folder;
   ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
   const std::string whole = read_whole_file(folder.file("a.csv"));
   EXPECT_THAT(sweep(folder.file("a.csv")).out, HasSubstr("8 of them done before")) << "nothing is to be forced";
   // As a run leaves it that was killed within a row; those that are there are taken, which a forged one shows.
-  std::string left = whole.substr(0, whole.rfind("# sha256") - 20);
-  const std::size_t forged = left.find("\n1,");
-  left[left.find("finished", forged)] = 'F';
+  const std::size_t first = whole.find("\n0,") + 1, sixth = whole.find("\n5,") + 1, forged = whole.find("\n1,");
+  std::string rows = whole.substr(first, sixth - first);
+  rows[whole.find("finished", forged) - first] = 'F';
+  const std::string left = kept_rows(whole.substr(0, first), rows, whole.substr(sixth, 20));
   fs::remove(folder.file("a.csv"));
   folder.write(".a.csv.rows", left);
   ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
@@ -274,10 +281,13 @@ TEST(SweepTable, TakesRowsOnlyUpToTheFirstThatIsNotItsOwn) {
   const TemporaryFolder folder;
   ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
   const std::string whole = read_whole_file(folder.file("a.csv"));
-  const std::size_t third = whole.find("\n2,") + 1, fourth = whole.find("\n3,") + 1, fifth = whole.find("\n4,") + 1;
-  std::string zeros = whole.substr(0, fifth);
+  const std::size_t first = whole.find("\n0,") + 1, third = whole.find("\n2,") + 1, fourth = whole.find("\n3,") + 1, fifth = whole.find("\n4,") + 1;
+  const std::string head = whole.substr(0, first), rows = whole.substr(first, fifth - first), good = kept_rows(head, rows, "");
+  std::string zeros = good, changed = good;
   zeros.replace(third + 4, 8, std::string(8, '\0'));
-  for (const std::string& left : {whole.substr(0, third) + whole.substr(fourth), whole.substr(0, fourth) + whole.substr(third), zeros}) {
+  changed[changed.find("finished", third)] = 'F';
+  const std::string missing = whole.substr(first, third - first) + whole.substr(fourth, fifth - fourth);
+  for (const std::string& left : {kept_rows(head, missing, ""), kept_rows(head, rows + missing, ""), zeros, changed, head + rows, good + "4,1\n# so far: 0\n", good}) {
     fs::remove(folder.file("a.csv"));
     folder.write(".a.csv.rows", left);
     ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);
@@ -633,6 +643,7 @@ TEST(SweepMap, ShowsAColumnOfTheTableOverItsTwoKeys) {
   ASSERT_EQ(swept({"--map", "down", "-o", folder.file("e.svg"), "-o", folder.file("e.csv")}).status, 0);
   EXPECT_THAT(read_whole_file(folder.file("e.svg")), HasSubstr("no value"));
   EXPECT_THAT(swept({"--map", "qd3", "--peaks", "qd", "-o", folder.file("x.png")}).err, HasSubstr("--map qd3: the table has no such column"));
+  EXPECT_FALSE(fs::exists(folder.file("x.csv"))) << "said before anything is computed";
   EXPECT_THAT(swept({"-o", folder.file("y.png")}).err, HasSubstr("a map shows one column of the table"));
   EXPECT_THAT(swept({"--peaks", "qd", "--shard", "1/2", "-o", folder.file("z.png")}).err, HasSubstr("a share of the runs makes no map"));
   EXPECT_THAT(swept({"--map", "qd1", "-o", folder.file("t.csv")}).err, HasSubstr("--map says what a map shows"));

@@ -94,6 +94,7 @@ TEST(Values, FunctionsHaveTheirClosedForms) {
   EXPECT_NEAR(constant_of("atan2(1, -1)"), 2.356194490192345, tolerance);
   EXPECT_EQ(constant_of("sqrt(2.25)"), 1.5);
   EXPECT_EQ(constant_of("abs(-3)"), 3);
+  EXPECT_TRUE(std::isnan(constant_of("sign(0/0)"))) << "what is no number has no sign";
   EXPECT_EQ(constant_of("min(2, 1)"), 1);
   EXPECT_EQ(constant_of("max(2, 1)"), 2);
   EXPECT_EQ(constant_of("min(3, 2, 5, 1, 4)"), 1);

@@ -48,6 +48,7 @@ TEST_P(Adaptive, FinishesWhereTheSameTorqueIsHeldDown) {
 TEST_P(Adaptive, TakesNoHarmFromATorqueThatWasNoNumberInARejectedAttempt) {
   // Thrown at a wall that is felt close by and behind which there are no numbers: long steps look behind it.
   struct Wall final : TorqueLaw {
+    double price(const Chain&) const override { return 0; }
     int beyond = 0;
     void evaluate(const Chain&, Workspace&, double, ConstVec q, ConstVec, Vec tau) override {
       const double gap = 1 - q[0];

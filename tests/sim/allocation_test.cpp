@@ -43,6 +43,7 @@ TEST(RattlesLoop, AllocatesNothingAfterTheFirstStep) {
 
 TEST(Counter, SeesALawThatAllocates) {
   struct Wasteful final : TorqueLaw {
+    double price(const Chain&) const override { return 0; }
     void evaluate(const Chain&, Workspace&, double, ConstVec, ConstVec, Vec tau) override {
       const std::vector<double> fresh(tau.size(), 0.0);
       std::copy(fresh.begin(), fresh.end(), tau.begin());

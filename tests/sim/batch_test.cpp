@@ -67,6 +67,7 @@ std::vector<std::uint64_t> bits_of(ConstVec q, ConstVec qd) {
 }
 
 struct ConstantTorque final : TorqueLaw {
+  double price(const Chain&) const override { return 0; }
   explicit ConstantTorque(std::vector<double> given) : tau_(std::move(given)) {}
   void evaluate(const Chain&, Workspace&, double, ConstVec, ConstVec, Vec tau) override {
     std::copy(tau_.begin(), tau_.end(), tau.begin());

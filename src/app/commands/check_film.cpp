@@ -12,7 +12,9 @@
 #include "app/cli/result.hpp"
 #include "app/cli/shell_word.hpp"
 #include "app/cli/streams.hpp"
+#include "app/commands/asked_films.hpp"
 #include "app/commands/comparison.hpp"
+#include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
 #include "app/film/prepared.hpp"
@@ -150,75 +152,6 @@ std::vector<ClipMemory> memories_today(const PreparedFilm& film, const std::stri
   return memories;
 }
 
-// What the audit beside a film tells of it.
-struct OwnAudit {
-  Json json;                 // null where there is none that tells of it
-  bool is_changed = false;   // the film has other bytes than it says
-  std::string folder;        // of the audit
-};
-
-// The files that it tells of.
-Json files_of(const Json& audit) {
-  const Json files = audit.is_object() ? audit.value(kAuditedFiles, Json()) : Json();
-  return files.is_array() ? files : Json::array();
-}
-
-// Which audits of a folder tell of a file that has none beside it. Each folder is read once.
-class AuditsOfFolders {
- public:
-  // What tells of a file: itself where an audit lies beside it, else the one audit of its folder that does; "" where none or several do.
-  std::string telling_of(const std::string& path) {
-    const fs::path file(path);
-    std::error_code code;
-    if (fs::is_regular_file(audit_path_of(path), code)) return path;
-    const auto [folder, is_new] = folders_.try_emplace(file.has_parent_path() ? file.parent_path().string() : ".");
-    if (is_new) read(folder->first, folder->second);
-    const std::vector<std::string>& audits = folder->second[file.filename().string()];
-    return audits.size() == 1 ? audits.front() : "";
-  }
-
- private:
-  using Tellers = std::map<std::string, std::vector<std::string>>;  // of each file's name the audits that tell of it
-
-  static void read(const std::string& folder, Tellers& tellers) {
-    std::error_code code;
-    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
-      const std::string path = entry->path().string();
-      if (lower_case_ending(path) != ".json") continue;
-      for (const Json& one : files_of(audit_beside(path))) tellers[word_of(one, "file")].push_back(path);
-    }
-  }
-
-  std::map<std::string, Tellers> folders_;
-};
-
-OwnAudit own_audit(const std::string& path, AuditsOfFolders& audits) {
-  try {
-    const std::string telling = audits.telling_of(path);
-    if (telling.empty()) return {};
-    const AuditCheck check = check_audit(telling);
-    const auto own = std::find_if(check.files.begin(), check.files.end(), [&](const AuditCheck::File& file) {
-      return fs::path(file.path).filename() == fs::path(path).filename();
-    });
-    if (own == check.files.end()) return {};
-    return {audit_beside(telling), own->state != AuditedState::as_written || !check.contradicted.empty(), fs::path(check.audit).parent_path().string()};
-  } catch (const Error&) {
-    return {};
-  }
-}
-
-// The scene file that it was made from, where the audit says that it lies: another one of its name may be anywhere.
-std::string scene_behind(const std::string& path, const OwnAudit& audit) {
-  const std::string told = word_of(audit.json, kScenePath);
-  const auto refuse = [&](const std::string& why) { throw Error(ExitCode::bad_input, why + ": name it, --scene SCENE.yaml", {path}); };
-  if (!audit.json.is_object()) refuse("has no audit beside it, NAME.json, which tells where its scene lies and what --set changed");
-  if (told.empty()) refuse("does not tell which file its scene is");
-  const std::string scene = (fs::path(audit.folder) / told).lexically_normal().string();
-  std::error_code code;
-  if (!fs::is_regular_file(scene, code)) refuse("its scene " + scene + " is not there any more");
-  return scene;
-}
-
 // What the command line changed when it was made, as its audit tells, and what is given now.
 std::vector<std::string> changes_of(const OwnAudit& audit, const CommonOptions& common) {
   std::vector<std::string> set;
@@ -229,36 +162,29 @@ std::vector<std::string> changes_of(const OwnAudit& audit, const CommonOptions& 
   return set;
 }
 
-// A film or picture that is asked about.
-struct AskedFilm {
-  std::string path;
-  OwnAudit audit;
-  bool is_gone = false;  // the audit tells of it, and it is not there
-};
+constexpr int kDigitsOfInstant = 9;  // of a frame's, of which rounding is no part
 
-// What makes it anew, as a shell's words. What has an audit beside it was made by `render`, a picture of one instant, too.
+// What makes it anew, as a shell's words. What has an audit beside it was made by `render`, a picture of one instant, too; one without by `snapshot`.
 std::vector<std::string> remaking_command(const Today& today, const Json& at) {
+  const auto file = [](const std::string& path) { return path.starts_with('-') ? "./" + path : path; };  // else it would be a flag
   const bool is_picture = find_output_format(today.path, Shows::motion) == nullptr && at.is_number();
-  std::vector<std::string> words{"chainreel", "render", today.scene};
-  if (is_picture) words.insert(words.end(), {"--at", format_shortest(at.get<double>()) + "s"});
+  std::vector<std::string> words{"chainreel", "render", file(today.scene)};
+  if (is_picture && !today.knows_set) words[1] = "snapshot";
+  if (is_picture) words.insert(words.end(), {"--at", format_significant(at.get<double>(), kDigitsOfInstant) + "s"});
   for (const std::string& one : today.set) words.insert(words.end(), {"--set", one});
-  words.insert(words.end(), {"-o", today.path, "--force"});
+  words.insert(words.end(), {"-o", file(today.path), "--force"});
   return words;
 }
 
-bool is_table(const std::string& path) {
-  return find_output_format(path, Shows::table) != nullptr;
-}
-
 PreparedFilm film_behind(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
-  return load_film(scene.empty() ? scene_behind(asked.path, asked.audit) : scene, changes_of(asked.audit, common), true, common.quiet);
+  return load_film(scene.empty() ? scene_behind(asked) : scene, changes_of(asked.audit, common), true, common.quiet);
 }
 
 // `at`: of a picture, its instant.
 void tell_remaking(Today& today, const OwnAudit& audit, const CommonOptions& common, const Json& at) {
   today.knows_set = audit.json.is_object();
   today.set = changes_of(audit, common);
-  if (today.knows_set) today.command = remaking_command(today, at);
+  today.command = remaking_command(today, at);
 }
 
 // The table of a panel, f.2.csv, is made with all others of its page, by -o f.csv.
@@ -269,7 +195,8 @@ std::string page_of_table(const std::string& path) {
 
 // A table of `render`: it remembers nothing, and is made again.
 Today table_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
-  const auto& [path, audit, is_gone] = asked;
+  const std::string& path = asked.path;
+  const OwnAudit& audit = asked.audit;
   const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = path, .scene = film.scene.file};
   tell_remaking(found, audit, common, nullptr);
@@ -292,84 +219,43 @@ Today table_of_today(const AskedFilm& asked, const std::string& scene, const Com
 Today gone_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = asked.path, .scene = film.scene.file, .is_gone = true};
-  tell_remaking(found, asked.audit, common, asked.audit.json.value("at", Json()));
+  tell_remaking(found, asked.audit, common, asked.at);
   if (is_table(asked.path) && film.panels.size() > 1) std::ranges::replace(found.command, asked.path, page_of_table(asked.path));
   return found;
 }
 
+// A figure of a model at poses depends on its file alone.
+Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
+  const Json& figure = remembered.figure;
+  if (word_of(figure, "model_sha256").empty())
+    throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
+  const ClipOrigin origin = find_nearest(path, files_wanted_by(remembered));
+  if (!origin.is_found) throw Error(ExitCode::bad_input, "shows " + word_of(figure, "model") + ", which is not here, nor in folders around", {path});
+  const Json moved = figure_from(figure, origin);
+  Today found{.path = path, .scene = word_of(moved, "model")};
+  if (!origin.changed.empty()) found.words.emplace_back("the model file has other bytes; whether more than a comment changed, a figure does not remember");
+  found.command = {"chainreel"};
+  for (const Json& word : moved.value("arguments", Json::array())) found.command.push_back(word.get<std::string>());
+  found.command.insert(found.command.end(), {"-o", path, "--force"});
+  return found;
+}
+
 Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
-  const auto& [path, audit, is_gone] = asked;
-  if (is_gone) return gone_of_today(asked, scene, common);
+  const std::string& path = asked.path;
+  const OwnAudit& audit = asked.audit;
+  if (asked.is_gone) return gone_of_today(asked, scene, common);
   if (is_table(path)) return table_of_today(asked, scene, common);
   const ClipMemory remembered = recall(path);
-  if (!remembered.figure.is_null())
-    throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
+  if (!remembered.figure.is_null()) return figure_of_today(path, remembered);
   const PreparedFilm film = film_behind(asked, scene, common);
   std::vector<Today> found;
   for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, audit.json, remembered, memory, film));
   const auto count = [](const Today& one) { return one.words.size() + one.facts.size(); };
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
+  for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
   tell_remaking(nearest, audit, common, remembered.audit.value("at", Json()));
   return nearest;
-}
-
-bool remembers_scene(const std::string& path) {
-  try {
-    return recall(path).figure.is_null();
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-// What is asked about, and what lies in the folders besides that remembers a scene.
-struct AskedFilms {
-  std::vector<AskedFilm> list;
-  std::vector<std::string> passed_over;
-};
-
-// What an audit tells of that lay beside it, and does not any more.
-void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
-  const Json json = audit_beside(audit);
-  if (!json.is_object() || word_of(json, kScenePath).empty()) return;
-  const fs::path folder = fs::path(audit).parent_path();
-  for (const Json& one : files_of(json)) {
-    const std::string file = (folder / fs::path(word_of(one, "file")).filename()).string();
-    std::error_code code;
-    if (find_output_format(file) != nullptr && !fs::exists(fs::symlink_status(file, code)))
-      list.push_back({file, {json, false, folder.string()}, true});
-  }
-}
-
-// Of a folder, and of those in it, what an audit tells of; without one nobody knows where the scene lies.
-AskedFilms with_folders_opened(const std::vector<std::string>& paths) {
-  AskedFilms all;
-  AuditsOfFolders audits;
-  for (const std::string& path : paths) {
-    std::error_code code;
-    if (!fs::is_directory(path, code)) {
-      all.list.push_back({path, own_audit(path, audits)});
-      continue;
-    }
-    const std::size_t before = all.list.size();
-    for (fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, code), end; !code && entry != end; entry.increment(code)) {
-      throw_if_interrupted();
-      const std::string file = entry->path().string();
-      if (entry->is_regular_file(code) && lower_case_ending(file) == ".json") add_gone(file, all.list);
-      const OutputFormat* format = find_output_format(file);
-      if (!entry->is_regular_file(code) || format == nullptr || (format->read_tags == nullptr && format->shows != Shows::table)) continue;
-      OwnAudit audit = is_table(file) || remembers_scene(file) ? own_audit(file, audits) : OwnAudit{};
-      if (audit.json.is_object())
-        all.list.push_back({file, std::move(audit)});
-      else
-        all.passed_over.push_back(file);
-    }
-    if (code) throw Error(ExitCode::bad_input, "cannot be read as a folder: " + code.message(), {path});
-    if (all.list.size() == before) throw Error(ExitCode::bad_input, "holds no film, picture or table with an audit that tells its scene", {path});
-    std::sort(all.list.begin() + std::ptrdiff_t(before), all.list.end(), [](const AskedFilm& a, const AskedFilm& b) { return a.path < b.path; });
-  }
-  std::sort(all.passed_over.begin(), all.passed_over.end());
-  return all;
 }
 
 void tell_passed_over(const std::vector<std::string>& files) {
@@ -398,7 +284,8 @@ void print_today(const Today& one) {
 
 // For a shell nothing else is told: what is as it should be has no line.
 void print_command(const Today& one) {
-  if (!one.command.empty()) std::printf("%s\n", shell_line(one.command).c_str());
+  if (!one.command.empty())
+    std::printf("%s%s\n", one.knows_set ? "" : "# what --set changed is not known, as no audit lies beside it: ", shell_line(one.command).c_str());
 }
 
 Json report_of(const Today& one) {
@@ -426,7 +313,7 @@ void check_as_written(const std::string& path, const CommonOptions& common) {
 }
 
 void check_of_today(const std::vector<std::string>& paths, const std::string& scene, bool as_commands, const CommonOptions& common) {
-  const AskedFilms asked = with_folders_opened(paths);
+  const AskedFilms asked = asked_films(paths);
   if (!common.quiet) tell_passed_over(asked.passed_over);
   std::vector<Today> all;
   for (const AskedFilm& film : asked.list) {

@@ -183,6 +183,8 @@ void run_join(const JoinOptions& options) {
                 [&] { std::printf("%s: the table of %zu parts\n", options.output.c_str(), options.parts.size()); });
     return;
   }
+  if (lower_case_ending(options.parts.front()) == ".csv")
+    throw Error(ExitCode::usage, "-o " + options.output + ": its parts are .csv tables, which are joined as one: name a .csv");
   const std::vector<Part> parts = parts_of(options);
   const PartFacts& facts = parts.front().facts;
   if (lower_case_ending(options.output) != lower_case_ending(parts.front().path))

@@ -119,6 +119,8 @@ SheetSize size_of(const SheetOptions& options) {
 void leave_out_plots(Scene& scene, bool quiet) {
   if (scene.places.contains("plot") && !scene.plot.empty() && !quiet)
     std::fprintf(stderr, "note: %s: the pictures of a sheet have no plots: `chainreel snapshot` shows one instant with them\n", scene.name.c_str());
+  if (!scene.annotate.empty() && !quiet)
+    std::fprintf(stderr, "note: %s: the pictures of a sheet have none of the words of `annotate`: `chainreel snapshot` shows one instant with them\n", scene.name.c_str());
   scene.plot.clear();
 }
 

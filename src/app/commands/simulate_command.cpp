@@ -42,17 +42,13 @@ struct SimulateOptions {
   CommonOptions common;
 };
 
-// The instants of rows `every` seconds, or of frames: "1ms". Whole parts of a second are divided by, so that 3 ms are 0.003.
-std::vector<double> row_times(const Scene& scene, const std::string& every) {
-  if (every.empty()) return frame_times(scene);
-  const double between = parse_quantity(every, {"--every"}, "s"), rate = std::round(1 / between);
-  const double rows = scene.duration / between;
-  if (!(between > 0) || !(rows <= kMostFrames))
+// s, between two rows; 0: as between frames.
+double between_rows(const Scene& scene, const std::string& every) {
+  if (every.empty()) return 0;
+  const double between = parse_quantity(every, {"--every"}, "s");
+  if (!(between > 0) || !(scene.duration / between <= kMostFrames))
     throw Error(ExitCode::usage, "--every " + every + " must be a time above 0, like 1ms, and give no more than ten million rows");
-  const bool is_part = std::abs(rate * between - 1) < 1e-12;
-  std::vector<double> times;
-  for (int k = 0; k <= int(rows); ++k) times.push_back(is_part ? k / rate : k * between);
-  return times;
+  return between;
 }
 
 Trajectory run_scene(const PreparedFilm& film, const PreparedScene& prepared, const SimulateOptions& options) {
@@ -62,7 +58,8 @@ Trajectory run_scene(const PreparedFilm& film, const PreparedScene& prepared, co
     return interrupted();
   };
   if (options.every_step) return simulate_every_step(prepared.simulation, stop);
-  std::vector<double> times = row_times(prepared.scene, options.every);
+  const double between = between_rows(prepared.scene, options.every);
+  std::vector<double> times = between > 0 ? instants_every(between, prepared.scene.duration, kMostFrames) : frame_times(prepared.scene);
   const double duration = prepared.scene.duration;
   // One row at the end exactly, and no frame within round-off before it.
   while (!times.empty() && times.back() > duration - same_instant(prepared.simulation)) times.pop_back();
@@ -131,7 +128,8 @@ void run_simulate(const SimulateOptions& options) {
   if (options.every_step && !options.every.empty()) throw Error(ExitCode::usage, "--every gives rows at instants, --every-step at the method's steps: take one of them");
   Scene scene = read_scene(options.scene, overrides_of(options.common));
   tighten(scene);
-  const PreparedFilm film = film_of(std::move(scene), false, options.common.quiet);
+  const double between = between_rows(scene, options.every);
+  const PreparedFilm film = film_of(std::move(scene), false, options.common.quiet, {}, between);
   const std::vector<std::size_t> chosen = chosen_panels(film, options);
   const bool alone = chosen.size() == 1;
   std::vector<std::string> outputs = options.outputs;

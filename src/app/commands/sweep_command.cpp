@@ -15,18 +15,16 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/files_of_run.hpp"
 #include "app/commands/map_axes.hpp"
 #include "app/commands/sweep_map.hpp"
 #include "app/commands/sweep_table.hpp"
-#include "app/film/house_logo.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/report/peaks.hpp"
 #include "app/report/report.hpp"
 #include "app/report/sidecar.hpp"
-#include "app/report/version.hpp"
 #include "app/works/draw_film.hpp"
-#include "app/works/growing_table.hpp"
 #include "app/works/render_film.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
@@ -34,10 +32,11 @@
 #include "core/input_file.hpp"
 #include "core/machine.hpp"
 #include "core/parallel.hpp"
+#include "draw/page/house_style.hpp"
 #include "encode/cut_off.hpp"
 #include "scene/quantity.hpp"
 #include "scene/text/picture_names.hpp"
-#include "scene/text/scene_paths.hpp"
+#include "scene/text/read_scene.hpp"
 
 namespace chainreel {
 namespace {
@@ -112,79 +111,6 @@ class NamesOfRuns {
  private:
   const Grid& grid_;
   std::vector<std::vector<std::string>> values_;  // of each axis
-};
-
-bool is_there(const std::string& path) {
-  std::error_code code;
-  return fs::exists(path, code);
-}
-
-bool has_sidecars(const Target& target) {
-  const std::string audit = audit_path_of(target.path);
-  return is_there(audit) && is_there(fs::path(audit).replace_extension(".txt").string());
-}
-
-// What a run's files say of themselves, to tell those that are there already.
-class FilesOfRun {
- public:
-  // `at`: instant that pictures show, s.
-  FilesOfRun(const PreparedFilm& film, double at)
-      : film_(film), runs_(film), scene_(placeless_scene_text(film.scene)), meshes_(meshes_hash(film)), style_(style_report(film)), at_(at) {
-    for (std::size_t i = 0; i < runs_.size(); ++i)
-      hashes_.push_back({film.panels[i].scene.model.sha256(), audit_of(film.panels[i].simulation, runs_[i]).sha256});
-  }
-
-  // Whether the file shows this very scene, with the same models, meshes and motions, by the same version of the program.
-  bool is(const Target& target) const {
-    try {
-      if (target.format->shows == Shows::table) return has_tables(target.path);
-      if (is_cut_off(target.path)) return is_told_of(target);
-      const ClipMemory memory = recall(target.path);
-      if (memory.scene != scene_ || !is_same(memory.audit)) return false;
-      return target.format->shows != Shows::still || std::abs(memory.audit.value("at", HUGE_VAL) - at_) <= same_instant(film_.panels.front().simulation);
-    } catch (const Error&) {
-      return false;
-    } catch (const Json::exception&) {
-      return false;  // what it says was not written by this program
-    }
-  }
-
-  static std::string audit_beside(const Target& target) { return audit_path_of(target.path); }
-
- private:
-  // What was cut off says nothing any more; the audit beside it does.
-  bool is_told_of(const Target& target) const {
-    const std::string audit = audit_beside(target);
-    const Json json = parse_json(read_plain_file(audit, kLargestGrown));
-    const Json files = json.value(kAuditedFiles, Json::array());
-    const std::string name = fs::path(target.path).filename().string();
-    return is_same(json) && std::any_of(files.begin(), files.end(), [&](const Json& one) { return one.value("file", "") == name; });
-  }
-  // A table says nothing of its run, and is it.
-  bool has_tables(const std::string& path) const {
-    for (std::size_t i = 0; i < runs_.size(); ++i)
-      if (read_plain_file(panel_table_path(path, i, runs_.size() == 1), kLargestGrown) !=
-          table_bytes(motion_table(film_.panels[i].simulation, runs_[i]), table_format_of(path)))
-        return false;
-    return true;
-  }
-  bool is_same(const Json& audit) const {
-    const bool compares = audit.contains("panels") && !audit["panels"].empty();
-    const Json panels = compares ? audit["panels"] : Json::array({audit});
-    if (panels.size() != hashes_.size() || audit.at("versions").at("chainreel") != program_version()) return false;
-    if (audit.value(kMeshesHash, Json()) != or_null(meshes_) || audit.value("style", Json()) != style_) return false;
-    for (std::size_t i = 0; i < hashes_.size(); ++i)
-      if (panels[i].value("model_sha256", "") != hashes_[i].first || panels[i].value("trajectory_sha256", "") != hashes_[i].second)
-        return false;
-    return true;
-  }
-
-  const PreparedFilm& film_;
-  Runs runs_;
-  std::string scene_, meshes_;
-  Json style_;
-  double at_;
-  std::vector<std::pair<std::string, std::string>> hashes_;  // of model and motion, a panel each
 };
 
 class FilmsOfGrid {
@@ -289,11 +215,20 @@ class FilmsOfGrid {
     PreparedFilm film = load_film(options_.scene, overrides, true, true);
     // Pages say which run they are of, as if the title had been set; comparisons have panels that would have to.
     const std::string words = names_.words(run);
+    if (film.panels.size() == 1 && is_title_set(overrides)) tell_parameters(film);
     if (film.panels.size() > 1 || words.empty() || is_title_set(overrides)) return film;
     const std::string title = film.scene.title.empty() ? words : film.scene.title + ": " + words;
     film.scene.set.push_back("title=" + Json(title).dump());
     film.scene.title = film.panels.front().scene.title = title;
     return film;
+  }
+
+  // Those of the grid, behind a title that all its films have.
+  void tell_parameters(PreparedFilm& film) const {
+    Parameters told;
+    for (const auto& one : film.scene.parameters)
+      if (std::ranges::any_of(grid_.axes(), [&](const Sweep& axis) { return axis.key == "parameters." + one.first; })) told.push_back(one);
+    film.scene.set_parameters = film.panels.front().scene.set_parameters = told;
   }
 
   static bool is_title_set(const std::vector<std::string>& overrides) {
@@ -443,7 +378,8 @@ void run_sweep(SweepOptions options) {
   // Tables first: they depend on the files that were read up to there, which must be the same for all shares.
   if (std::vector<std::string> tables = tables_of(options.outputs); !tables.empty()) {
     tables.front() = with_suffix(tables.front(), suffix);
-    const SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, tables, options.common.force, options.common.quiet, peaks};
+    SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, tables, options.common.force, options.common.quiet, peaks};
+    if (!maps.empty()) job.looks_at_names = [&](const std::vector<std::string>& names) { require_map_column(names, grid, options.map); };
     const SweepOutcome outcome = write_sweep_table(job);
     for (const std::string& path : tables) tell(path, outcome);
     if (!maps.empty()) {

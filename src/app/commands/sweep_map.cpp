@@ -85,6 +85,10 @@ void require_map_grid(const Grid& grid) {
   for (const Sweep& axis : grid.axes()) require_map_axis(axis, "--over " + axis.key);
 }
 
+void require_map_column(const std::vector<std::string>& names, const Grid& grid, const std::string& wanted) {
+  find_column(names, grid, wanted);
+}
+
 StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& path, const std::string& wanted) {
   const Sweep &x = grid.axes()[0], &y = grid.axes()[1];
   StabilityMap map;

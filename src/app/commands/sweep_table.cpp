@@ -288,6 +288,11 @@ void refuse_unknown_keys(const std::string& scene, const std::vector<std::string
 
 namespace {
 
+std::string last_line_of(std::string text) {
+  text.pop_back();  // its end
+  return text.substr(text.rfind('\n') + 1);
+}
+
 // The same table as other kinds of files.
 class Copies {
  public:
@@ -316,8 +321,10 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   for (const std::string& doubt : first.doubts) tell_warnings({first.name + ": " + doubt});
 
   const std::string& path = job.paths.front();
+  const std::string head = head_of(job, first, simulation.chain, peaks);
+  if (job.looks_at_names) job.looks_at_names(csv_fields(last_line_of(head), {path}));
   Copies copies(job);
-  GrowingTable table(path, head_of(job, first, simulation.chain, peaks), std::size_t(job.runs.first),
+  GrowingTable table(path, head, std::size_t(job.runs.first),
                      std::size_t(job.runs.behind - job.runs.first), job.overwrite);
   SeenRows seen(job.grid, peaks, std::size_t(std::count(states.begin(), states.end(), ',')) + 2);
   table.for_each_before([&](const std::string& row) { seen.look(row); });

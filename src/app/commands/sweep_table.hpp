@@ -1,6 +1,7 @@
 // What the runs of a grid come to, as a table: a row a run, with its last state and the first time of each event.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct SweepTableJob {
   bool overwrite = false;
   bool quiet = false;
   std::vector<MotionColumn> peaks;  // see app/report/peaks
+  std::function<void(const std::vector<std::string>&)> looks_at_names = nullptr;  // of the columns, before anything is computed; may throw
 };
 
 // Whether runs have several methods, steps or tolerances.

@@ -225,6 +225,7 @@ class Verification {
           without(PictureState::missing, suite_, picture,
                   {"there is no baseline: look at the picture, then --accept " + picture.name +
                    ", or take all that are missing with --missing write"});
+      if (shot.leaves_camera) verdict.words.push_back(kLeavesCamera);
       verdict.actual_png = png_bytes(shot.image);
       return verdict;
     }

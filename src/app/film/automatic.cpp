@@ -14,6 +14,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kWorthSaying = 100;  // times what was asked for: beyond that nobody wants it
+constexpr double kMostInstants = 20'000;  // by which a method is judged
 constexpr long kMostEvaluationsForEvents = 10'000'000;
 
 std::string microseconds(double ns) {
@@ -75,12 +76,12 @@ std::optional<double> end_by_event(Simulation& simulation, std::span<const doubl
 
 }  // namespace
 
-void choose_automatically(PreparedScene& prepared, bool quiet) {
+void choose_automatically(PreparedScene& prepared, bool quiet, double between) {
   if (prepared.simulation.method) return;
   Simulation& simulation = prepared.simulation;
   const auto events = simulation.events;
   const double duration = simulation.duration;
-  std::vector<double> times = frame_times(prepared.scene);
+  std::vector<double> times = between > 0 ? instants_every(between, prepared.scene.duration, kMostInstants) : frame_times(prepared.scene);
   if (events) {
     // What comes behind the event that ends the run is nobody's concern.
     const auto end = end_by_event(simulation, times);
@@ -98,20 +99,6 @@ void choose_automatically(PreparedScene& prepared, bool quiet) {
   simulation.whole_duration = 0;
 }
 
-namespace {
-
-// A function of the calling program takes some 20 us where the table of costs counts 60 ns: with the whole budget the search
-// would take minutes.
-constexpr double kBudgetOfFunctions = kChoiceBudget / 300;
-
-bool asks_a_function(const Scene& scene) {
-  const auto asks = [](const std::optional<Control>& control) { return control && control->function; };
-  return asks(scene.control) ||
-         std::any_of(scene.torque.begin(), scene.torque.end(), [&](const TorqueEntry& entry) { return asks(entry.control); });
-}
-
-}  // namespace
-
 Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet) {
   // Bars have no extent but their own.
   simulation.outline =
@@ -121,7 +108,7 @@ Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::spa
     if (ticker.is_due()) ticker.say(scene.name + ": " + progress_text(now, simulation.duration), std::clamp(now.spent, 0.0, 1.0));
     return interrupted();
   };
-  Choice choice = choose_method(simulation, scene.accuracy, times, watch, asks_a_function(scene) ? kBudgetOfFunctions : kChoiceBudget);
+  Choice choice = choose_method(simulation, scene.accuracy, times, watch);
   throw_if_interrupted();
   return choice;
 }

@@ -12,7 +12,8 @@ namespace chainreel {
 
 // Fills in method and step where the scene leaves them to the program; else does nothing. Throws Error (numerical) at
 // the scene's `accuracy` where that cannot be had, and the signal's.
-void choose_automatically(PreparedScene& prepared, bool quiet);
+// `between`: s, of the instants that are asked for; 0: those of frames.
+void choose_automatically(PreparedScene& prepared, bool quiet, double between = 0);
 // choose_method, with a line on standard error from the first second on unless it is to be quiet.
 Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::span<const double> times, bool quiet);
 

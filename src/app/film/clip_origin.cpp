@@ -27,9 +27,10 @@ class Candidates {
   // The starts, those around them, then those below them.
   explicit Candidates(const std::vector<fs::path>& starts) {
     for (const fs::path& start : starts) add(start, 0);
+    // Of the first one around a start, what lies beside it, too.
     for (fs::path start : starts)
       for (int up = 0; up < kHighest && start.has_relative_path(); ++up)
-        add(start = start.parent_path(), kDeepest);
+        add(start = start.parent_path(), up == 0 ? kDeepest - 1 : kDeepest);
   }
 
   std::optional<fs::path> next() {
@@ -95,6 +96,17 @@ ClipOrigin look_in(const fs::path& folder, const std::vector<WantedFile>& wanted
   return origin;
 }
 
+// What comes with the program.
+std::optional<ClipOrigin> shipped_origin(const fs::path& here, const std::vector<WantedFile>& wanted) {
+  ClipOrigin shipped = look_in(here, wanted, true);
+  if (shipped.is_found && shipped.changed.empty()) return shipped;
+  if (const std::string data = data_folder(); !data.empty()) {
+    ClipOrigin own = look_in(fs::path(data) / "assets/scenes", wanted);
+    if (own.is_found && own.changed.empty()) return own;
+  }
+  return std::nullopt;
+}
+
 void add_hash(const Json& part, std::vector<WantedFile>& wanted) {
   const std::string model = word_of(part, "model"), hash = word_of(part, "model_sha256");
   for (WantedFile& file : wanted)
@@ -122,13 +134,19 @@ ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& w
     if (origin.changed.empty()) return origin;
     if (!changed) changed = std::move(origin);
   }
-  ClipOrigin shipped = look_in(here, wanted, true);
-  if (shipped.is_found && shipped.changed.empty()) return shipped;
-  if (const std::string data = data_folder(); !data.empty()) {
-    ClipOrigin own = look_in(fs::path(data) / "assets/scenes", wanted);
-    if (own.is_found && own.changed.empty()) return own;
-  }
+  if (std::optional<ClipOrigin> shipped = shipped_origin(here, wanted)) return *shipped;
   return changed.value_or(first);
+}
+
+ClipOrigin find_nearest(const std::string& clip, const std::vector<WantedFile>& wanted) {
+  std::error_code code;
+  const fs::path here = fs::current_path(code);
+  for (const fs::path& start : {(here / clip).lexically_normal().parent_path(), here}) {
+    Candidates candidates({start});
+    while (const std::optional<fs::path> folder = candidates.next())
+      if (ClipOrigin origin = look_in(*folder, wanted); origin.is_found) return origin;
+  }
+  return shipped_origin(here, wanted).value_or(look_in(here, wanted));
 }
 
 namespace {

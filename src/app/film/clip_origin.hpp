@@ -32,6 +32,10 @@ struct ClipOrigin {
 ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& wanted,
                        const std::string& given);
 
+// The folder nearest to the clip that holds all files, whatever has become of them, so that a change of what lies beside it is not missed for
+// a copy elsewhere.
+ClipOrigin find_nearest(const std::string& clip, const std::vector<WantedFile>& wanted);
+
 // What a memory needs beside it: relative paths of its scene, or of its figure's words, with the hashes that
 // its audit tells.
 std::vector<WantedFile> files_wanted_by(const ClipMemory& memory);

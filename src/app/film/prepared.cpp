@@ -1,6 +1,7 @@
 #include "app/film/prepared.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <set>
 
@@ -32,24 +33,24 @@ void say_what_is_left_out(const std::vector<std::string>& wanted, const Prepared
   if (!missing.empty() && said.insert(note).second) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
-PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet, std::set<std::string>& said) {
+PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet, double between, std::set<std::string>& said) {
   PreparedScene prepared{std::move(scene), {}, {}, nullptr};
   const std::vector<std::string> wanted = prepared.scene.draw;
   prepared.simulation = prepare(prepared.scene, meshes);
   if (!quiet) say_what_is_left_out(wanted, prepared, said);
-  choose_automatically(prepared, quiet);
+  choose_automatically(prepared, quiet, between);
   return prepared;
 }
 
 // Every panel is prepared, so that all problems are told at once; what several panels share is told once.
-std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool meshes, bool quiet) {
+std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool meshes, bool quiet, double between) {
   std::vector<PreparedScene> panels;
   std::set<std::string> seen, said;
   std::vector<Problem> problems;
   ExitCode code = ExitCode::bad_input;
   for (const Scene& scene : scenes) {
     try {
-      panels.push_back(prepare_panel(scene, meshes, quiet, said));
+      panels.push_back(prepare_panel(scene, meshes, quiet, between, said));
     } catch (const Error& error) {
       code = error.code();
       for (const Problem& problem : error.problems())
@@ -113,10 +114,11 @@ void check_words(const PreparedFilm& film) {
   check_annotations(film.scene, scenes, chains);
 }
 
-// What tells this run from others of the same scene: a film of a sweep shows where it stands.
+// What tells this run from others of the same scene; a title that was given with it says itself what it is to say.
 Parameters set_parameters(const Scene& scene) {
   Parameters set;
   const auto is_set = [&](const std::string& key) { return scene.place_of(key).file.starts_with("--set"); };
+  if (is_set("title")) return set;
   for (const auto& one : scene.parameters)
     if (is_set("parameters." + one.first) || is_set("parameters")) set.push_back(one);
   return set;
@@ -144,21 +146,21 @@ PreparedFilm load_film(const std::string& path, const std::vector<std::string>& 
   return film_of(read_scene(path, overrides), meshes, quiet);
 }
 
-PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<OwnTorque>& torque) {
+PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<OwnTorque>& torque, double between) {
   PreparedFilm film{std::move(scene), {}, quiet};
   if (torque) drive(film.scene, *torque);
   if (meshes) load_logo(film.scene);
   if (film.scene.compare.empty()) {
     std::set<std::string> said;
     film.scene.set_parameters = set_parameters(film.scene);
-    film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet, said));
+    film.panels.push_back(prepare_panel(std::move(film.scene), meshes, quiet, between, said));
     film.scene = film.panels.front().scene;
     check_words(film);
     if (meshes) load_shapes(film);
     notice_the_page(film);
     return film;
   }
-  film.panels = prepare_panels(film.scene.compare, meshes, quiet);
+  film.panels = prepare_panels(film.scene.compare, meshes, quiet, between);
   for (std::size_t i = 0; i < film.panels.size(); ++i) film.scene.compare[i] = film.panels[i].scene;
   name_panels(film.scene.compare);
   for (std::size_t i = 0; i < film.panels.size(); ++i)
@@ -196,6 +198,15 @@ PreparedScene load_motion(const std::string& path, const std::vector<std::string
 std::vector<double> frame_times(const Scene& scene) {
   std::vector<double> times(std::size_t(frame_count(scene.duration, scene.video.fps)));
   for (std::size_t k = 0; k < times.size(); ++k) times[k] = frame_time(int(k), scene.video.fps);
+  return times;
+}
+
+std::vector<double> instants_every(double between, double duration, double most) {
+  const double rate = std::round(1 / between), rows = duration / between;
+  const bool is_part = std::abs(rate * between - 1) < 1e-12;
+  const int apart = std::max(1, int(std::ceil(rows / most)));
+  std::vector<double> times;
+  for (int k = 0; k <= int(rows); k += apart) times.push_back(is_part ? k / rate : k * between);
   return times;
 }
 

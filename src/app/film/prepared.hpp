@@ -36,7 +36,8 @@ std::size_t bars_of(const PreparedFilm& film);
 PreparedFilm load_film(const std::string& path, const std::vector<std::string>& overrides, bool meshes = true,
                        bool quiet = true);
 // The same of a scene that has been read. `torque` drives the joints of every panel: Error (usage) where one has its own.
-PreparedFilm film_of(Scene scene, bool meshes = true, bool quiet = true, const std::optional<OwnTorque>& torque = {});
+// `between`: s, of the instants by which `auto` judges; 0: those of frames.
+PreparedFilm film_of(Scene scene, bool meshes = true, bool quiet = true, const std::optional<OwnTorque>& torque = {}, double between = 0);
 // For who measures methods over the whole duration: no event acts, which is said among the scene's notices.
 void leave_events_out(PreparedScene& prepared);
 // For commands that run one motion with methods of their own, over its whole duration: events do not act, and no method is
@@ -46,5 +47,7 @@ PreparedScene load_motion(const std::string& path, const std::vector<std::string
 
 // 0, 1/fps, 2/fps, ...: one a frame of a film without slow motion.
 std::vector<double> frame_times(const Scene& scene);
+// 0, between, 2 between, ..: whole parts of a second are divided by, so that 3 ms are 0.003. Of more than `most` some, evenly.
+std::vector<double> instants_every(double between, double duration, double most);
 
 }  // namespace chainreel

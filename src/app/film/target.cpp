@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 
 #include "app/cli/streams.hpp"
 #include "core/error.hpp"
@@ -61,6 +62,9 @@ void require_possible(const Target& target, const Scene& scene) {
 }  // namespace
 
 Target target_of(const std::string& path) {
+  static const std::regex counter("%0?[0-9]*d");
+  if (std::smatch found; std::regex_search(path, found, counter))
+    throw Error(ExitCode::usage, "-o " + path + ": frames are counted from the first one's name: -o " + found.prefix().str() + "000000" + found.suffix().str());
   if (const OutputFormat* format = find_output_format(path)) return {format, path, false};
   throw Error(ExitCode::usage, "-o " + path + ": no output has that ending; there are " +
                                    endings_of([](const OutputFormat&) { return true; }, "and") +

@@ -65,7 +65,7 @@ std::string methods_page() {
   const SceneKey &step = *find_key("step"), &tolerance = *find_key("tolerance");
   return "# Methods\n\n"
          "`method: auto`, the default, takes the cheapest method and step that keep `accuracy:` at every point that can be\n"
-         "seen, in every frame and halfway between, and curves of rates, torques, energies and multipliers to a like share of their range\n"
+         "seen, in every frame, where torques bend or jump, and halfway between, and curves of rates, torques, energies and multipliers to a like share of their range\n"
          "(`chainreel check` tells which candidate misses what). Any other is named, with a step or a tolerance:\n\n" +
          code_block("yaml", "method: dop853\ntolerance: 1e-11\n") + "\n" +
          "- `step`, where it is left out: " + step.absent + ".\n- `tolerance`, where it is left out: " + tolerance.absent +

@@ -52,6 +52,22 @@ std::string control_words(const Control& control, const std::string& end_effecto
   return joined(parts, " and ");
 }
 
+// ", where k = 1200 and lean = 0.05,": the parameters that formulas read.
+std::string where_words(const Scene& scene, const std::string& formulas) {
+  const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  const auto reads = [&](const std::string& name) {
+    for (std::size_t at = formulas.find(name); at != std::string::npos; at = formulas.find(name, at + 1)) {
+      const std::size_t end = at + name.size();
+      if ((at == 0 || !is_of_name(formulas[at - 1])) && (end == formulas.size() || !is_of_name(formulas[end]))) return true;
+    }
+    return false;
+  };
+  std::vector<std::string> values;
+  for (const auto& [name, value] : scene.parameters)
+    if (reads(name)) values.push_back(name + " = " + format_significant(value, 4));
+  return values.empty() ? "" : ", where " + joined(values) + ",";
+}
+
 std::string torque_words(const Scene& scene) {
   if (scene.motion) return "the torques that a recorded motion takes (inverse dynamics)";
   if (scene.control && scene.control->function) return "torques of " + scene.control->function->words;
@@ -59,10 +75,10 @@ std::string torque_words(const Scene& scene) {
   std::string text;
   bool acts = false;
   for (const TorqueEntry& entry : scene.torque) {
-    text += (text.empty() ? "" : ", ") + (entry.control ? "a control" : entry.text);
+    text += (text.empty() ? "" : ", ") + (entry.control ? control_words(*entry.control, scene.end_effector) : entry.text);
     acts = acts || entry.control || entry.text != "0";
   }
-  if (acts) return "torques (" + text + ")";
+  if (acts) return "torques (" + text + ")" + where_words(scene, text);
   return scene.contact_force.empty() ? "no torques" : "torques that press alone";
 }
 

@@ -195,6 +195,7 @@ std::string limit_words(const LimitEvent& limit, LimitPolicy policy) {
 }
 
 std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajectory& trajectory) {
+  constexpr double kNoRate = 1e-9;  // rad/s or m/s
   constexpr std::size_t kMostLimits = 6;  // the audit tells of all
   std::vector<std::string> notes;
   const Scene& scene = prepared.scene;
@@ -216,6 +217,8 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajector
       notes.push_back("constraint_force: no arrow, as what the constraints bear is rounding beside the robot's weight, " + format_significant(*largest, 2) + " N at most");
   if (const auto held = foot_is_held_from(prepared.simulation, trajectory)) notes.push_back("from t = " + format_significant(*held, 4) + " s on " + kFootIsHeld);
   if (!trajectory.trouble.empty() && is_complete(trajectory.status)) notes.push_back("stopped: " + trajectory.trouble);
+  if (trajectory.size() > 1 && std::ranges::all_of(trajectory.qd, [](double rate) { return std::abs(rate) < kNoRate; }))
+    notes.push_back("nothing moves: the start is at rest, and all that acts on it cancels: another `start` is needed, or a torque");
   return notes;
 }
 

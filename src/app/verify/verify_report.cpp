@@ -70,21 +70,21 @@ std::string unused_words(const SuiteResult& result) {
 
 std::string summary_of(const SuiteResult& result) {
   const int failed = result.failed(), all = int(result.pictures.size());
-  std::vector<std::string> parts;
+  std::vector<std::string> bad, good;  // what failed is told first
   for (std::size_t i = 0; i < names_of(PictureState{}).size(); ++i) {
     const int count = result.count(PictureState(i));
     if (count == 0) continue;
     // Other physics, say, that the suite lets pass.
     const auto passes = std::count_if(result.pictures.begin(), result.pictures.end(),
                                       [&](const PictureVerdict& one) { return one.state == PictureState(i) && one.passes; });
-    parts.push_back(std::to_string(count) + " " + to_string(PictureState(i)) +
+    (passes < count ? bad : good).push_back(std::to_string(count) + " " + to_string(PictureState(i)) +
                     (failed > 0 && passes > 0 && PictureState(i) != PictureState::same && PictureState(i) != PictureState::accepted
                          ? " (" + std::to_string(passes) + (passes == 1 ? " of them passes)" : " of them pass)")
                          : ""));
   }
   return (failed == 0 ? std::to_string(all) + (all == 1 ? " picture passed" : " pictures passed")
                       : std::to_string(failed) + " of " + std::to_string(all) + " pictures failed") +
-         ": " + joined(parts);
+         ": " + joined(bad) + (bad.empty() || good.empty() ? "" : "; the others: ") + joined(good);
 }
 
 Json to_json(const SuiteResult& result) {

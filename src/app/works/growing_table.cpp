@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -25,22 +26,65 @@ struct Found {
   std::size_t rows = 0, bytes = 0;  // of the head and whole rows
 };
 
-// Rows begin with their numbers, and hold no zero bytes, which a disk that lost power leaves: behind one that does not, none is.
+const std::string kSoFar = "# so far: ";  // in the hidden file, behind each piece: the hash of the one before it and of its rows
+
+std::string so_far(const std::string& before, const std::string& rows) {
+  return sha256_of(before + rows);
+}
+
+// Whether a file begins with the head.
+bool begins_with(std::ifstream& stream, const std::string& head) {
+  std::string text(head.size(), '\0');
+  stream.read(text.data(), std::streamsize(text.size()));
+  return stream && text == head;
+}
+
+// Rows begin with their numbers: behind one that does not, none is.
 Found look_at(const std::string& path, const std::string& head, std::size_t first) {
   Found found;
   std::error_code code;
   if (!fs::is_regular_file(path, code)) return found;
   std::ifstream stream(path, std::ios::binary);
-  std::string text(head.size(), '\0');
-  stream.read(text.data(), std::streamsize(text.size()));
-  if (!stream || text != head) return found;
+  if (!begins_with(stream, head)) return found;
   found = {true, 0, head.size()};
   for (std::string line; std::getline(stream, line) && !stream.eof();) {  // a line without its end is half a row
-    if (!line.starts_with(std::to_string(first + found.rows) + ",") || line.find('\0') != std::string::npos) break;
+    if (!line.starts_with(std::to_string(first + found.rows) + ",")) break;
     ++found.rows;
     found.bytes += line.size() + 1;
   }
   return found;
+}
+
+// Of the hidden file: up to the last piece whose rows are those that were written, whatever a disk that lost power or somebody else did.
+struct Kept : Found {
+  std::string hash;  // of the last piece
+};
+Kept look_at_kept(const std::string& path, const std::string& head, std::size_t first) {
+  Kept kept;
+  std::error_code code;
+  if (!fs::is_regular_file(path, code)) return kept;
+  std::ifstream stream(path, std::ios::binary);
+  if (!begins_with(stream, head)) return kept;
+  kept.has_head = true;
+  kept.bytes = head.size();
+  std::string piece;
+  std::size_t rows = 0, bytes = 0;  // of the piece
+  for (std::string line; std::getline(stream, line) && !stream.eof();) {
+    bytes += line.size() + 1;
+    if (!line.starts_with(kSoFar)) {
+      if (!line.starts_with(std::to_string(first + kept.rows + rows) + ",")) break;
+      piece += line + "\n";
+      ++rows;
+      continue;
+    }
+    const std::string hash = so_far(kept.hash, piece);
+    if (line != kSoFar + hash) break;
+    kept.hash = hash;
+    kept.rows += std::exchange(rows, 0);
+    kept.bytes += std::exchange(bytes, 0);
+    piece.clear();
+  }
+  return kept;
 }
 
 // Of any sweep, maybe of another one.
@@ -85,7 +129,7 @@ GrowingTable::GrowingTable(const std::string& path, const std::string& head, std
     finished_ = true;
     before_ = whole.rows;
     // As a process leaves it that was killed between the two.
-    if (std::error_code code; look_at(hidden_, head, first).has_head) fs::remove(hidden_, code);
+    if (std::error_code code; look_at_kept(hidden_, head, first).has_head) fs::remove(hidden_, code);
     return;
   }
   { const OutputFile allowed(path, overwrite); }  // throws where it is not, before anything is computed
@@ -104,9 +148,10 @@ GrowingTable::GrowingTable(const std::string& path, const std::string& head, std
     close(file_);
     throw Error(ExitCode::file, "lies where rows are kept, and this program did not write it: move it away", {hidden_});
   }
-  Found found = look_at(hidden_, head, first);
+  Kept found = look_at_kept(hidden_, head, first);
   if (found.rows > rows) found = {};  // nobody's
   before_ = found.rows;
+  hash_ = found.hash;
   if (ftruncate(file_, off_t(found.bytes)) != 0 || lseek(file_, 0, SEEK_END) < 0) {
     const std::string reason = std::strerror(errno);
     close(file_);
@@ -123,14 +168,21 @@ void GrowingTable::for_each_before(const std::function<void(const std::string& r
   std::ifstream stream(finished_ ? path_ : hidden_, std::ios::binary);
   stream.seekg(std::streamoff(head_size_));
   std::string line;
-  for (std::size_t k = 0; k < before_ && std::getline(stream, line); ++k) look(line);
+  for (std::size_t k = 0; k < before_ && std::getline(stream, line);) {
+    if (line.starts_with(kSoFar)) continue;
+    look(line);
+    ++k;
+  }
 }
 
 void GrowingTable::take(std::size_t piece, std::string lines) {
   const std::lock_guard guard(lock_);
   waiting_.emplace(piece, std::move(lines));
-  for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_, waiting_.erase(waiting_.begin()))
-    append(waiting_.begin()->second);
+  for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_, waiting_.erase(waiting_.begin())) {
+    const std::string& rows = waiting_.begin()->second;
+    hash_ = so_far(hash_, rows);
+    append(rows + kSoFar + hash_ + "\n");
+  }
 }
 
 void GrowingTable::append(const std::string& text) {
@@ -153,18 +205,19 @@ void require_hash_of_rows(const std::string& path) {
   if (!has_hash_of_rows(path)) refuse_changed(path);
 }
 
+// The table that the hidden file becomes.
+std::string GrowingTable::whole() const {
+  std::ifstream stream(hidden_, std::ios::binary);
+  std::string text;
+  for (std::string line; std::getline(stream, line);)
+    if (!line.starts_with(kSoFar)) text += line + "\n";
+  return text + kHashOfRows + sha256_of(text) + "\n";
+}
+
 void GrowingTable::commit(const std::function<std::string(const std::string& csv)>& file_of) {
-  append(line_of_hash(hidden_));
   OutputFile output(path_, overwrite_);
+  write_whole(output, file_of ? file_of(whole()) : whole());
   std::error_code code;
-  if (file_of) {
-    write_whole(output, file_of(read_plain_file(hidden_, kLargestGrown)));
-    fs::remove(hidden_, code);
-    return;
-  }
-  fs::copy_file(hidden_, output.temporary_path(), fs::copy_options::overwrite_existing, code);
-  if (code) throw Error(ExitCode::file, "could not be written whole (" + code.message() + ")", {path_});
-  output.commit();
   fs::remove(hidden_, code);
 }
 

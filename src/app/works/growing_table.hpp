@@ -44,8 +44,10 @@ class GrowingTable {
 
  private:
   void append(const std::string& text);
+  std::string whole() const;
 
   std::string path_, hidden_;
+  std::string hash_;  // of the rows so far
   std::size_t head_size_ = 0;
   std::size_t before_ = 0;
   bool finished_ = false, overwrite_ = false;

@@ -184,7 +184,8 @@ std::string sidecar_text(const Sidecar& sidecar, const FilmReport& report) {
 }
 
 // The files as they lie there, in their order, clips with what is in them; null for sequences.
-Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, const FilmReport& report) {
+// .. and pictures with their instant, s.
+Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, const FilmReport& report, double at) {
   Json files = Json::array();
   for (const std::string& path : paths) {
     std::error_code code;
@@ -194,7 +195,10 @@ Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, 
     }
     Json& file = files.emplace_back(audited_file(path));
     for (const Target& target : job.targets)
-      if (target.path == path && target.format->shows == Shows::motion) file.update(clip_facts_of(target, report));
+      if (target.path == path && target.format->shows == Shows::motion)
+        file.update(clip_facts_of(target, report));
+      else if (target.path == path && target.format->shows == Shows::still)
+        file["at"] = at;
   }
   return files;
 }
@@ -455,7 +459,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   if (job.tells) tell_warnings(others.lost);
   std::ranges::copy(others.lost, std::back_inserter(result.warnings));
   result.files = commit(outputs);
-  result.audit[kAuditedFiles] = audited_files(job, result.files, report);
+  result.audit[kAuditedFiles] = audited_files(job, result.files, report, between ? job.at : frame_at);
   forget_chunks(outputs, range, total_frames);
   write_sidecars(sidecars, job, report, others, result);
   if (!is_part) put_first_clip(result.audit, job, report, [](const Target&) { return true; });

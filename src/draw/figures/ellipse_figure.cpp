@@ -127,6 +127,23 @@ std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& pose
   return configurations;
 }
 
+double longest_semi_axis(const std::vector<Pose>& poses, EllipseReading reading) {
+  constexpr double kAlone = 3;       // times the next
+  constexpr double kCutTo = 1 / 1.8;  // such a one does not decide on the scale, but this part of it
+  constexpr std::size_t kLeastPoses = 3;
+  std::vector<double> longest;  // of each
+  for (const Pose& pose : poses) {
+    // Velocities of equal energy are bounded everywhere.
+    if (reading != EllipseReading::energy && !is_ordinary(pose.axes)) continue;
+    double own = 0;
+    for (const MassAxis& axis : pose.axes) own = std::max(own, semi_axis(axis, reading).value_or(0));
+    longest.push_back(own);
+  }
+  std::sort(longest.rbegin(), longest.rend());
+  if (longest.empty()) return 0;
+  return longest.size() < kLeastPoses || longest[0] <= kAlone * longest[1] ? longest[0] : std::max(longest[1], kCutTo * longest[0]);
+}
+
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading) {
   // Those of the curves that have an end, where there are any.
   const auto is_finite = [](const Pose& pose) { return !pose.axes.empty() && pose.axes.front().mass; };
@@ -139,12 +156,7 @@ EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReadi
   if (bounded.empty()) return {1, 0.10, reading};
   std::nth_element(bounded.begin(), bounded.begin() + std::ptrdiff_t(bounded.size() / 2), bounded.end());
   const double median = bounded[bounded.size() / 2];
-  double longest = median;
-  for (const Pose& pose : poses) {
-    // Velocities of equal energy are bounded everywhere.
-    if (reading != EllipseReading::energy && !is_ordinary(pose.axes)) continue;
-    for (const MassAxis& axis : pose.axes) longest = std::max(longest, semi_axis(axis, reading).value_or(0));
-  }
+  double longest = std::max(median, longest_semi_axis(poses, reading));
   // Of poses that are all singular what is finite of each, where it is not nearly infinite.
   if (!any_finite && reading != EllipseReading::energy)
     for (const Pose& pose : poses)

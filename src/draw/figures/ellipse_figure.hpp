@@ -21,9 +21,11 @@ std::vector<Pose> poses_of(const TipMass& mass, const std::vector<std::vector<do
 
 std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& poses);
 
-// The bounded semi-axes (their median) have their usual length, but no semi-axis of an ordinary pose is longer than
-// kLongestAxis, so that all ellipses of ordinary poses can be seen whole. `room`: the shorter side of a panel, units
-// of H.
+// By which the scale of a figure is bounded, in the axes' unit: the longest of ordinary poses; of three poses or more one that is alone with
+// its length does not make all others small.
+double longest_semi_axis(const std::vector<Pose>& poses, EllipseReading reading);
+// The bounded semi-axes (their median) have their usual length, but the longest_semi_axis is no longer than kLongestAxis, so that all
+// ellipses of ordinary poses, but one that is alone with its length, can be seen whole. `room`: the shorter side of a panel, units of H.
 EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReading reading);
 // The bar of a scale that draws a unit so long, units of H.
 EllipseScale scale_of(double per_unit, EllipseReading reading);

@@ -212,13 +212,9 @@ double shortest_drawn(const Panels& panels, const std::vector<Pose>& poses) {
   return shortest;
 }
 
-// The longest axis that is drawn whole, units of H.
+// The longest axis by which ellipses are scaled, units of H.
 double longest_drawn(const Panels& panels, const std::vector<Pose>& poses) {
-  double longest = 0;
-  for (const Pose& pose : poses)
-    for (const MassAxis& axis : pose.axes)
-      if (is_ordinary(pose.axes)) longest = std::max(longest, 2 * semi_axis(axis, panels.options.reading).value_or(0) * panels.scale.per_unit());
-  return longest;
+  return 2 * longest_semi_axis(poses, panels.options.reading) * panels.scale.per_unit();
 }
 
 // Returns the size of what the panels show. Beside ellipses much longer than the whole chain, as small panels would have them, it would

@@ -89,7 +89,8 @@ class Annotations : public Layer {
     for (std::size_t i = 0; i < stage.page.annotate.size(); ++i) {
       const AnnotationEntry& entry = stage.page.annotate[i];
       const std::optional<double> at = instant_of(entry, first.scene().events, first.trajectory().events);
-      if (at) notes_.push_back({&entry, int(i) + 1, *at, lay_out(entry)});
+      // What comes behind the last frame, as at the very end, is told on it.
+      if (at) notes_.push_back({&entry, int(i) + 1, std::min(*at, stage.times.back()), lay_out(entry)});
     }
   }
 

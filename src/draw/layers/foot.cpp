@@ -74,7 +74,7 @@ class FootLayer : public Layer {
   explicit FootLayer(const Stage& stage)
       : theme_(&stage.theme),
         page_(&stage.page),
-        held_(lay_out_text(stage.fonts, "foot held", {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left})),
+        held_(lay_out_text(stage.fonts, "foot held: a real one turns", {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left})),
         arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
     for (const StagedRun& motion : stage.motions)
       if (is_of(motion) && motion.has_foot()) runs_.emplace(&motion, motion);

@@ -52,6 +52,7 @@ namespace {
 
 constexpr double kAnchorAway = 0.050;  // of a slider's anchor beyond the end of its rail, units of H
 constexpr double kAnchorWidth = 0.060;
+constexpr double kSmallest = 0.8;      // of the size of coils and dashpots on full rails: on thin ones they would be a hair
 constexpr double kRestBeyond = 0.022;  // of the mark of rest, on both sides of the rail
 constexpr double kSideBySide = 0.23;   // of the rail's width: of a coil and a dashpot from its middle line
 
@@ -118,13 +119,14 @@ class SliderSprings : public Layer {
     const Point half = (look.rails * kAnchorWidth / 2) * side;
     draw_ground(picture, {anchor - half, anchor + half}, away, look, panel.clip());
     const bool both = device.drive.is_spring() && device.drive.damping > 0;
-    const Point apart = ((both ? kSideBySide : 0) * look.rails * size::kRailGap) * side;
+    const double width = std::max(look.rails, kSmallest * panel.marks());
+    const Point apart = ((both ? kSideBySide : 0) * width * size::kRailGap) * side;
     if (device.drive.is_spring()) {
       draw_rest(picture, drawing, shot.ws, device, side, panel.clip());
-      draw_coil(picture, anchor + apart, end + apart, look.rails * (both ? 0.6 : 1), color, panel.clip());
+      draw_coil(picture, anchor + apart, end + apart, width * (both ? 0.6 : 1), color, panel.clip());
     }
     if (device.drive.damping > 0)
-      draw_dashpot(picture, anchor - apart, end - apart, look.rails * (both ? 0.6 : 1), color,
+      draw_dashpot(picture, anchor - apart, end - apart, width * (both ? 0.6 : 1), color,
                    look.theme->background, panel.clip());
   }
 

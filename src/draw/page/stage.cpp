@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kWild =
     100;  // lengths of the chain: beyond, a run that did not finish is left out of the fit
+constexpr int kMostColours = 4;  // of variants in panels of their own: more would have the colours of vectors, and tell nothing without a plot
 constexpr double kFirstTone = 0.72, kSecondTone = 0.38;  // of a variant's colour in its links
 constexpr int kScaleSamples = 200;  // of a clip decide on the scale of what it shows
 
@@ -96,6 +97,7 @@ Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::ve
       arrows(std::move(shares)) {
   const int count = int(runs.size());
   const bool ghost = count > 1 && is_ghost_layout(page);
+  const bool has_colours = count > 1 && (count <= kMostColours || !page.plot.empty());
   const auto is_good = [](const PanelRun& run) { return is_complete(run.trajectory.status); };
   const bool any_good = std::any_of(runs.begin(), runs.end(), is_good);
   for (int i = 0; i < count; ++i) {
@@ -104,7 +106,7 @@ Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::ve
     if (samples < 1)
       throw Error(ExitCode::bad_input, "a film needs at least one frame", page.place_of("duration"));
     motions.emplace_back(run, samples, is_good(run) || !any_good, count > 1 || run.scene.expect == Outcome::diverge,
-                         count > 1 ? std::optional(variant_of(i, count, ghost, theme)) : std::nullopt);
+                         has_colours ? std::optional(variant_of(i, count, ghost, theme)) : std::nullopt);
   }
   const Chain& first = motions.front().chain();
   if (!is_oblique(first, page.camera) && !has_eye(first, page.camera)) return;

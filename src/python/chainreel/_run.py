@@ -64,7 +64,7 @@ class Scene:
 
         Throws Error, with file and line, of whatever is wrong with the scene, and where the run does not end as the scene
         expects; what the torque function raises is raised. What speaks against the run is a RunWarning. Other threads go on.
-        Where `method: auto` chooses, it is as exact as its film, 0.1 px; numbers may want more, accuracy="1e-8 relative".
+        Where `method: auto` chooses, it is as exact as its film, 0.1 px; numbers may want more: Scene(.., accuracy="1e-8 relative").
         """
         instants = np.atleast_1d(np.asarray([] if times is None else times, dtype=float))
         if instants.ndim > 1:

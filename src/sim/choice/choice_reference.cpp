@@ -55,7 +55,7 @@ class Finder {
   Finder(CountedRuns& runs, const Accuracy& accuracy, std::span<const double> times)
       : runs_(runs), simulation_(runs.simulation()), accuracy_(accuracy), times_(times) {
     // A step as short as asked for, unless the whole run would then cost too much.
-    const double distance = times.size() > 1 ? times[1] - times[0] : simulation_.duration;
+    const double distance = times.size() > 1 ? simulation_.duration / double(times.size() - 1) : simulation_.duration;
     const MethodSetting setting{&find_method("dop853"), {1e-14, 0}, 0};
     const double affordable = kShareOfRun * runs.budget() / (2 * kEvaluationsOfStep * runs.price_of_evaluation(setting));
     longest_step_ = std::max(distance, simulation_.duration / std::max(affordable, 1.0));

@@ -19,6 +19,8 @@ constexpr double kStepLadder[] = {0.2,  0.1,  0.05, 0.02, 0.01, 5e-3, 2e-3,
 constexpr double kToleranceLadder[] = {1e-2, 1e-3, 1e-4,  1e-5,  1e-6,  1e-7,
                                        1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
 constexpr int kOrders[] = {12, 20};
+constexpr std::size_t kMostBreaks = 1000;  // of a torque at which runs are compared
+constexpr double kSameInstant = 1e-9;      // of the duration
 constexpr double kShareOfCandidate = 0.1;  // of the budget, where nothing is exact enough yet
 // Where a part of the run decides, what is cheapest there may be dear behind: candidates are looked at up to this many
 // times its cost, and then run to the end with equal bounds, from this share of the budget on.
@@ -30,15 +32,33 @@ constexpr double kSmallErrors = 100;  // times the accuracy: up to there errors 
 // Where a method is exact enough with no setting, others are tried up to this many times the cost of the most exact one.
 constexpr double kBeyondMostExact = 3;
 
-// Frames show them; what is between two frames is asked for by slow motion, captions and tables.
-std::vector<double> with_halves(std::span<const double> frames, double end) {
+// Frames show them; what is between two frames is asked for by slow motion, captions and tables. A pulse may come and go there, so that
+// they are judged where the torque bends or jumps, too.
+std::vector<double> with_breaks(std::span<const double> frames, const std::vector<double>& breaks, double end) {
+  std::vector<double> times(frames.begin(), frames.end());
+  const std::size_t every = 1 + breaks.size() / kMostBreaks;
+  for (std::size_t k = 0; k < breaks.size(); k += every)
+    if (breaks[k] > 0 && breaks[k] < end) times.push_back(breaks[k]);
+  times.push_back(end);
+  std::sort(times.begin(), times.end());
+  const double apart = kSameInstant * end;
+  times.erase(std::unique(times.begin(), times.end(), [&](double a, double b) { return b - a <= apart; }), times.end());
+  while (times.size() > 1 && times.back() > end) times.pop_back();
+  return times;
+}
+
+std::vector<double> sorted(std::vector<double> list) {
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+// .. and halfway between.
+std::vector<double> with_halves(const std::vector<double>& instants) {
   std::vector<double> times;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    times.push_back(frames[k]);
-    const double next = k + 1 < frames.size() ? frames[k + 1] : end;
-    if (next > frames[k]) times.push_back(0.5 * (frames[k] + next));
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    if (k > 0) times.push_back(0.5 * (instants[k - 1] + instants[k]));
+    times.push_back(instants[k]);
   }
-  if (times.empty() || times.back() < end) times.push_back(end);
   return times;
 }
 
@@ -50,7 +70,7 @@ class Chooser {
         accuracy_(accuracy),
         duration_(simulation.duration),
         whole_duration_(std::max(simulation.duration, simulation.whole_duration)),
-        times_(with_halves(frames, duration_)),
+        times_(with_halves(with_breaks(frames, sorted(simulation.torque->breaks(duration_)), duration_))),
         runs_(simulation, budget, watch),
         growth_(kSmallErrors * accuracy.value) {
     for (const Method& method : methods())

@@ -1,5 +1,5 @@
 // `method: auto`: the cheapest method and step whose error stays below what the scene allows, at every
-// point that can be seen and of every curve over time, in every frame and halfway between. Cost is counted (cost_table.hpp), never timed.
+// point that can be seen and of every curve over time, in every frame, where the torque bends or jumps, and halfway between. Cost is counted (cost_table.hpp), never timed.
 #pragma once
 
 #include <optional>

@@ -41,7 +41,8 @@ CountedRuns::CountedRuns(Simulation& simulation, double budget, const ChoiceWatc
     : simulation_(simulation),
       budget_(budget),
       watch_(watch),
-      constraints_(price_of_constraints(simulation)) {}
+      constraints_(price_of_constraints(simulation)),
+      torque_(simulation.torque->price(simulation.chain)) {}
 
 CountedRuns::~CountedRuns() {
   simulation_.longest_step = 0;
@@ -67,7 +68,7 @@ Trajectory CountedRuns::run(const MethodSetting& setting, std::span<const double
 
 double CountedRuns::cost_of(const MethodSetting& setting, double steps, double evaluations) const {
   const double free = run_cost(simulation_.chain, *setting.method, setting.options, steps, evaluations);
-  return free + evaluations * constraints_.evaluation + steps * constraints_.projection;
+  return free + evaluations * (constraints_.evaluation + torque_) + steps * constraints_.projection;
 }
 
 double CountedRuns::price_of_evaluation(const MethodSetting& setting) const {

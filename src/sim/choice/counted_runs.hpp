@@ -59,6 +59,7 @@ class CountedRuns {
   double budget_;
   const ChoiceWatch& watch_;
   ConstraintCost constraints_{0, 0};  // beyond a free chain's
+  double torque_ = 0;                 // of the law, an evaluation
   double spent_ = 0;
   int runs_ = 0;
   bool stopped_ = false;

@@ -6,6 +6,7 @@
 #include "core/format.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
+#include "sim/drive/prices.hpp"
 #include "sim/drive/torque.hpp"
 
 namespace chainreel {
@@ -29,6 +30,7 @@ class CsvTorque final : public TorqueLaw {
             y[next - 1] + (t - times[next - 1]) / (times[next] - times[next - 1]) * (y[next] - y[next - 1]);
     }
   }
+  double price(const Chain& chain) const override { return kPriceOfLaw + kPriceOfSpline * chain.nv; }
   std::vector<double> breaks(double) const override { return table_.t; }
 
  private:
@@ -83,6 +85,7 @@ class InverseTorque final : public ReferenceLaw {
     compute_friction(chain, ws, qd_);
     for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = ws.tau[i] + ws.tau_f[i];
   }
+  double price(const Chain& chain) const override { return kPriceOfLaw + reference_->price(true) + price_of_inverse_dynamics(chain); }
 };
 
 class PdTorque final : public ReferenceLaw {
@@ -94,6 +97,7 @@ class PdTorque final : public ReferenceLaw {
     move_without_acceleration(t);
     for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = kp_[i] * (q_[i] - q[i]) + kd_[i] * (qd_[i] - qd[i]);
   }
+  double price(const Chain&) const override { return kPriceOfLaw + reference_->price(false); }
   std::vector<LinearDrive> linear_drives(const Chain&) const override {
     std::vector<LinearDrive> drives;
     for (std::size_t i = 0; i < kp_.size(); ++i) {
@@ -147,6 +151,7 @@ class ComputedTorque final : public ReferenceLaw {
     compute_friction(chain, ws, qd);
     for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = ws.tau[i] + ws.tau_f[i];
   }
+  double price(const Chain& chain) const override { return kPriceOfLaw + reference_->price(true) + price_of_inverse_dynamics(chain); }
   bool reference_at(double t, Vec q) override { return copy_reference(t, q); }
 
  private:
@@ -160,6 +165,7 @@ class GravityCompensation final : public TorqueLaw {
     compute_gravity_torque(chain, ws, q);
     std::copy(ws.tau_g.begin(), ws.tau_g.end(), tau.begin());
   }
+  double price(const Chain& chain) const override { return kPriceOfLaw + price_of_inverse_dynamics(chain); }
 };
 
 class SumOfTorques final : public TorqueLaw {
@@ -173,6 +179,11 @@ class SumOfTorques final : public TorqueLaw {
       part->evaluate(chain, ws, t, q, qd, part_);
       for (std::size_t i = 0; i < tau.size(); ++i) tau[i] += part_[i];
     }
+  }
+  double price(const Chain& chain) const override {
+    double sum = 0;
+    for (const auto& part : parts_) sum += part->price(chain);
+    return sum;
   }
   std::vector<double> breaks(double end) const override {
     std::vector<double> all;
@@ -252,6 +263,7 @@ class WithinTable final : public TorqueLaw {
     if (piece_.value_or(is_within(t))) return law_->evaluate(chain, ws, t, q, qd, tau);
     std::fill(tau.begin(), tau.end(), 0.0);
   }
+  double price(const Chain& chain) const override { return law_->price(chain); }
   std::vector<double> breaks(double end) const override {
     std::vector<double> all = law_->breaks(end);
     all.insert(all.end(), {from_, until_});

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "dynamics/kinematics.hpp"
+#include "sim/drive/prices.hpp"
 #include "sim/drive/state_corners.hpp"
 
 namespace chainreel {
@@ -17,6 +18,7 @@ class PushedLaw final : public TorqueLaw {
   void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) override {
     law_->evaluate(chain, ws, t, q, qd, tau);
   }
+  double price(const Chain& chain) const override { return kPriceOfLaw + law_->price(chain) + price_of_kinematics(chain); }
   const Pushes* pushes() const override { return &pushes_; }
   bool drives_are_constant() const override { return law_->drives_are_constant(); }
   bool depends_on_velocity() const override { return law_->depends_on_velocity(); }

@@ -9,6 +9,7 @@
 #include "core/format.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
+#include "sim/drive/prices.hpp"
 
 namespace chainreel {
 namespace {
@@ -381,6 +382,7 @@ class ReplayTorque final : public TorqueLaw {
     motion_->evaluate(t, q_, qd_, qdd_);
     inverse_torque(chain, ws, q_, qd_, qdd_, tau);
   }
+  double price(const Chain& chain) const override { return kPriceOfLaw + motion_->price(true) + price_of_inverse_dynamics(chain); }
   // Where splines bend; its accelerations do not jump.
   std::vector<double> breaks(double end) const override { return motion_->breaks(end); }
 

@@ -27,6 +27,7 @@ class RecordedMotion final : public Reference {
 
   // Beyond the ends, where instants are but rounded, the state at that end.
   void evaluate(double t, Vec q, Vec qd, Vec qdd) const override;
+  double price(bool with_acceleration) const override { return splines_->price(with_acceleration); }
   std::vector<double> breaks(double end) const override { return splines_->breaks(end); }
 
   double end() const { return end_; }  // s, of its last row

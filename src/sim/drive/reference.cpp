@@ -10,6 +10,7 @@
 #include "expr/corners.hpp"
 #include "expr/instants.hpp"
 #include "expr/pulses.hpp"
+#include "sim/drive/prices.hpp"
 
 namespace chainreel {
 namespace {
@@ -55,6 +56,13 @@ class ExpressionReference final : public Reference {
     }
   }
 
+  double price(bool with_acceleration) const override {
+    double sum = 0;
+    for (const CorneredProgram& one : q_) sum += kPriceOfDerivative * price_of(one);
+    for (const CorneredProgram& one : qd_) sum += price_of(one);
+    for (const CorneredProgram& one : qdd_) sum += with_acceleration ? price_of(one) : 0;
+    return sum;
+  }
   std::vector<double> breaks(double end) const override { return instants_of(corners_, end); }
   void enter_piece(double t) override {
     leave_pieces();
@@ -111,6 +119,9 @@ class TableReference final : public Reference {
       qd[i] = rate.y;
       if (!qdd.empty()) qdd[i] = qdd_.empty() ? rate.yd : qdd_[i].at(t).y;
     }
+  }
+  double price(bool with_acceleration) const override {
+    return kPriceOfSpline * double(q_.size() + qd_.size() + (with_acceleration ? qdd_.size() : 0));
   }
   // The accelerations of a spline bend at its rows.
   std::vector<double> breaks(double) const override { return *t_; }

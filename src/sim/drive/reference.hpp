@@ -29,6 +29,8 @@ class Reference {
   virtual ~Reference() = default;
   // n numbers each; without room for it, `qdd` is not worked out, for less. Allocates nothing.
   virtual void evaluate(double t, Vec q, Vec qd, Vec qdd) const = 0;
+  // What that costs, ns: with or without qdd.
+  virtual double price(bool with_acceleration) const = 0;
   // Where it bends or jumps, and the piece between two such instants: see TorqueLaw.
   virtual std::vector<double> breaks(double) const { return {}; }
   virtual void enter_piece(double) {}

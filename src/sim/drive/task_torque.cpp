@@ -5,6 +5,7 @@
 #include "core/format.hpp"
 #include "dynamics/kinematics.hpp"
 #include "sim/drive/control.hpp"
+#include "sim/drive/prices.hpp"
 #include "sim/drive/pushes.hpp"
 #include "sim/drive/torque.hpp"
 
@@ -29,6 +30,7 @@ class TaskTorque final : public TorqueLaw {
     std::fill(tau.begin(), tau.end(), 0.0);
     add_force(chain, ws, frame_, force, tau);
   }
+  double price(const Chain& chain) const override { return kPriceOfLaw + reference_->price(false) + price_of_kinematics(chain); }
   std::vector<double> breaks(double end) const override { return reference_->breaks(end); }
   void enter_piece(double t) override { reference_->enter_piece(t); }
   void leave_pieces() override { reference_->leave_pieces(); }

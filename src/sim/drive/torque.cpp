@@ -10,6 +10,7 @@
 #include "expr/instants.hpp"
 #include "expr/pulses.hpp"
 #include "model/read_chain.hpp"
+#include "sim/drive/prices.hpp"
 #include "sim/drive/state_corners.hpp"
 
 namespace chainreel {
@@ -22,6 +23,7 @@ class ConstantTorque final : public TorqueLaw {
   void evaluate(const Chain&, Workspace&, double, ConstVec, ConstVec, Vec tau) override {
     std::copy(tau_.begin(), tau_.end(), tau.begin());
   }
+  double price(const Chain&) const override { return 0; }
   bool is_constant() const override { return true; }
   std::optional<AffineTorque> affine() const override {
     const std::size_t n = tau_.size();
@@ -55,6 +57,11 @@ class MixedTorque final : public TorqueLaw {
       law->evaluate(chain, ws, t, q, qd, one_);
       tau[joint] += one_[joint];
     }
+  }
+  double price(const Chain& chain) const override {
+    double sum = rest_->price(chain);
+    for (const auto& [joint, has_more, law] : controls_) sum += law->price(chain);
+    return sum;
   }
   std::vector<double> breaks(double end) const override {
     std::vector<double> all = rest_->breaks(end);
@@ -238,6 +245,11 @@ class ExpressionTorque final : public TorqueLaw {
       tau[i] = chainreel::evaluate<double>(programs_[i], probe_.values(), sides_);
   }
 
+  double price(const Chain& chain) const override {
+    double sum = kPriceOfLaw + (needs_kinematics_ ? price_of_kinematics(chain) : 0);
+    for (const CorneredProgram& one : programs_) sum += price_of(one);
+    return sum;
+  }
   std::vector<double> breaks(double end) const override {
     if (end == end_of_breaks_) return breaks_;
     breaks_ = instants_of(corners_, end);

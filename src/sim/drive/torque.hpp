@@ -39,6 +39,8 @@ class TorqueLaw {
   // Writes nv numbers for the chain that the law was made for. Allocates nothing; a value that cannot be had
   // is written as NaN, which stops the run.
   virtual void evaluate(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVec qd, Vec tau) = 0;
+  // What that costs, ns, see sim/drive/prices. No default: a law without it does not compile.
+  virtual double price(const Chain& chain) const = 0;
   virtual bool is_constant() const { return false; }  // then the work done is tau . (q - q(0)) exactly
   // Whether the joints' torques are, whatever pushes besides.
   virtual bool drives_are_constant() const { return is_constant(); }

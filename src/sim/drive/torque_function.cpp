@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/drive/prices.hpp"
 #include "sim/drive/torque.hpp"
 
 namespace chainreel {
@@ -21,6 +22,7 @@ class FunctionTorque final : public TorqueLaw {
       *torque_.failure = std::current_exception();
     }
   }
+  double price(const Chain&) const override { return kPriceOfFunction; }
 
  private:
   OwnTorque torque_;

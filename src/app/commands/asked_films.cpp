@@ -1,0 +1,186 @@
+#include "app/commands/asked_films.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "app/cli/streams.hpp"
+#include "app/film/clip_memory.hpp"
+#include "app/film/clip_origin.hpp"
+#include "app/film/formats.hpp"
+#include "app/report/audit_check.hpp"
+#include "app/report/sidecar.hpp"
+#include "core/error.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The files that it tells of.
+Json files_of(const Json& audit) {
+  const Json files = audit.is_object() ? audit.value(kAuditedFiles, Json()) : Json();
+  return files.is_array() ? files : Json::array();
+}
+
+// Which audits of a folder tell of a file that has none beside it. Each folder is read once.
+class AuditsOfFolders {
+ public:
+  // What tells of a file: itself where an audit lies beside it, else the one audit of its folder that does; "" where none or several do.
+  std::string telling_of(const std::string& path) {
+    const fs::path file(path);
+    std::error_code code;
+    if (fs::is_regular_file(audit_path_of(path), code)) return path;
+    const auto [folder, is_new] = folders_.try_emplace(file.has_parent_path() ? file.parent_path().string() : ".");
+    if (is_new) read(folder->first, folder->second);
+    const std::vector<std::string>& audits = folder->second[file.filename().string()];
+    return audits.size() == 1 ? audits.front() : "";
+  }
+
+ private:
+  using Tellers = std::map<std::string, std::vector<std::string>>;  // of each file's name the audits that tell of it
+
+  static void read(const std::string& folder, Tellers& tellers) {
+    std::error_code code;
+    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+      const std::string path = entry->path().string();
+      if (lower_case_ending(path) != ".json") continue;
+      for (const Json& one : files_of(audit_beside(path))) tellers[word_of(one, "file")].push_back(path);
+    }
+  }
+
+  std::map<std::string, Tellers> folders_;
+};
+
+OwnAudit own_audit(const std::string& path, AuditsOfFolders& audits) {
+  try {
+    const std::string telling = audits.telling_of(path);
+    if (telling.empty()) return {};
+    const AuditCheck check = check_audit(telling);
+    const auto own = std::find_if(check.files.begin(), check.files.end(), [&](const AuditCheck::File& file) {
+      return fs::path(file.path).filename() == fs::path(path).filename();
+    });
+    if (own == check.files.end()) return {};
+    OwnAudit audit{audit_beside(telling), own->state != AuditedState::as_written || !check.contradicted.empty(), fs::path(check.audit).parent_path().string()};
+    for (const AuditCheck::File& file : check.files)
+      if (file.state == AuditedState::missing && find_output_format(file.path) == nullptr) audit.texts_gone.push_back(file.path);
+    return audit;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// Of a figure of one model that it knows again; "" of others.
+std::string model_of_figure(const Json& figure) {
+  return word_of(figure, "model_sha256").empty() ? "" : fs::path(word_of(figure, "model")).filename().string();
+}
+
+bool remembers_what_it_shows(const std::string& path) {
+  try {
+    const ClipMemory memory = recall(path);
+    return memory.figure.is_null() || !model_of_figure(memory.figure).empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// What an audit tells of that lay beside it, and does not any more.
+void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
+  const Json json = audit_beside(audit);
+  if (!json.is_object() || word_of(json, kScenePath).empty()) return;
+  const fs::path folder = fs::path(audit).parent_path();
+  for (const Json& one : files_of(json)) {
+    const std::string file = (folder / fs::path(word_of(one, "file")).filename()).string();
+    std::error_code code;
+    if (find_output_format(file) != nullptr && !fs::exists(fs::symlink_status(file, code)))
+      list.push_back({file, {json, false, folder.string()}, true, "", one.value("at", Json())});
+  }
+}
+
+// Scenes and models of the names that films and pictures remember, in folders that hold all that they need besides.
+class ScenesRemembered {
+ public:
+  // "" where there is none.
+  std::string of(const std::string& path) {
+    try {
+      const ClipMemory memory = recall(path);
+      const std::string name = memory.figure.is_null() ? word_of(memory.audit, "scene") : model_of_figure(memory.figure);
+      if (name.empty() || fs::path(name).filename() != fs::path(name)) return "";
+      return look_for(path, name, files_wanted_by(memory));
+    } catch (const Error&) {
+      return "";
+    }
+  }
+
+ private:
+  std::string look_for(const std::string& path, const std::string& name, const std::vector<WantedFile>& needed) {
+    std::vector<std::string> key{fs::path(path).parent_path().string(), name};
+    for (const WantedFile& file : needed) key.insert(key.end(), {file.path, file.sha256});
+    const auto [known, is_new] = found_.try_emplace(key);
+    if (!is_new) return known->second;
+    std::vector<WantedFile> wanted = needed;
+    if (std::ranges::none_of(wanted, [&](const WantedFile& file) { return file.path == name; })) wanted.push_back({name, ""});
+    const ClipOrigin origin = find_nearest(path, wanted);
+    if (origin.is_found) known->second = (fs::path(origin.folder) / name).lexically_normal().string();
+    return known->second;
+  }
+
+  std::map<std::vector<std::string>, std::string> found_;  // a search may look into thousands of folders
+};
+
+}  // namespace
+
+bool is_table(const std::string& path) {
+  return find_output_format(path, Shows::table) != nullptr;
+}
+
+AskedFilms asked_films(const std::vector<std::string>& paths) {
+  AskedFilms all;
+  AuditsOfFolders audits;
+  ScenesRemembered scenes;
+  const auto asked = [&](const std::string& file) {
+    AskedFilm film{file, own_audit(file, audits)};
+    if (!film.audit.json.is_object() && !is_table(file)) film.scene = scenes.of(file);
+    return film;
+  };
+  for (const std::string& path : paths) {
+    std::error_code code;
+    if (!fs::is_directory(path, code)) {
+      all.list.push_back(asked(path));
+      continue;
+    }
+    const std::size_t before = all.list.size();
+    for (fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, code), end; !code && entry != end; entry.increment(code)) {
+      throw_if_interrupted();
+      const std::string file = entry->path().string();
+      if (entry->is_regular_file(code) && lower_case_ending(file) == ".json") add_gone(file, all.list);
+      const OutputFormat* format = find_output_format(file);
+      if (!entry->is_regular_file(code) || format == nullptr || (format->read_tags == nullptr && format->shows != Shows::table)) continue;
+      AskedFilm film = is_table(file) || remembers_what_it_shows(file) ? asked(file) : AskedFilm{file};
+      if (film.audit.json.is_object() || !film.scene.empty())
+        all.list.push_back(std::move(film));
+      else
+        all.passed_over.push_back(file);
+    }
+    if (code) throw Error(ExitCode::bad_input, "cannot be read as a folder: " + code.message(), {path});
+    if (all.list.size() == before) throw Error(ExitCode::bad_input, "holds no film, picture or table with an audit that tells its scene", {path});
+    std::sort(all.list.begin() + std::ptrdiff_t(before), all.list.end(), [](const AskedFilm& a, const AskedFilm& b) { return a.path < b.path; });
+  }
+  std::sort(all.passed_over.begin(), all.passed_over.end());
+  return all;
+}
+
+std::string scene_behind(const AskedFilm& film) {
+  if (!film.scene.empty()) return film.scene;
+  const auto refuse = [&](const std::string& why) { throw Error(ExitCode::bad_input, why + ": name it, --scene SCENE.yaml", {film.path}); };
+  if (!film.audit.json.is_object())
+    refuse("has no audit beside it, NAME.json, which tells where its scene lies and what --set changed, and no scene of the name that it remembers lies about");
+  const std::string told = word_of(film.audit.json, kScenePath);
+  if (told.empty()) refuse("does not tell which file its scene is");
+  const std::string scene = (fs::path(film.audit.folder) / told).lexically_normal().string();
+  std::error_code code;
+  if (!fs::is_regular_file(scene, code)) refuse("its scene " + scene + " is not there any more");
+  return scene;
+}
+
+}  // namespace chainreel

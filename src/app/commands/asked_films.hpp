@@ -1,0 +1,42 @@
+// Films, pictures and tables that `check --today` is asked about, with where the scene of each lies.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.hpp"
+
+namespace chainreel {
+
+// What the audit beside a film tells of it.
+struct OwnAudit {
+  Json json;                // null where there is none that tells of it
+  bool is_changed = false;  // the film has other bytes than it says
+  std::string folder;       // of the audit
+  std::vector<std::string> texts_gone{};  // captions and words that it tells of and that are not there
+};
+
+struct AskedFilm {
+  std::string path;
+  OwnAudit audit{};
+  bool is_gone = false;     // the audit tells of it, and it is not there
+  std::string scene{};      // where no audit tells of it, the one of the name that it remembers
+  Json at = nullptr;        // of a picture that is gone: its instant, s
+};
+
+// Of folders, and of those in them, what an audit tells of, or whose scene lies about under the name that they remember.
+struct AskedFilms {
+  std::vector<AskedFilm> list;
+  std::vector<std::string> passed_over;  // nobody knows where their scenes lie
+};
+
+// Throws Error (exit 3) where a folder cannot be read or holds nothing to ask about.
+AskedFilms asked_films(const std::vector<std::string>& paths);
+
+// The scene file that it was made from, where the audit says that it lies; of a film without an audit that of the name which it remembers, which
+// lies beside the files that it needs. Throws Error (exit 3) where there is none.
+std::string scene_behind(const AskedFilm& film);
+
+bool is_table(const std::string& path);
+
+}  // namespace chainreel
