@@ -11,7 +11,7 @@ int main(int count, char** words) try {
   run.qd0.assign(std::size_t(run.chain.nv), 0.0);
   run.torque = chainreel::make_torque_law(run.chain, std::vector<chainreel::TorqueEntry>(run.qd0.size()), {});  // "0" each
   run.duration = 1;
-  chainreel::apply({&chainreel::find_method("dop853"), {.tolerance = 1e-10}, 0}, run);
+  chainreel::apply({&chainreel::find_method("dop853"), {.tolerance = 1e-10}, 0}, run);  // {&find_method("rk4"), {}, 0.001}: a fixed step, s
 
   std::vector<double> times;
   for (int k = 0; k <= 10; ++k) times.push_back(0.1 * k);
