@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class AuditCheckTest : public testing::Test {
  protected:
@@ -92,7 +93,7 @@ TEST(FilmOfToday, FindsWhatPicturesWithoutAuditsShow) {
   for (const char* name : {"docs", "scenes"}) fs::create_directory(folder.file(name));
   const std::string urdf = folder.write("scenes/rr.urdf", before);
   const std::string scene = folder.write("scenes/own.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.2\nmethod: rk4\nvideo: {width: 160, height: 90}\n");
-  ASSERT_EQ(run_program({"snapshot", scene, "--quiet", "--at", "0.1", "-o", folder.file("docs/s.png"), "-o", folder.file("docs/s.svg")}).status, 0);
+  ASSERT_EQ(run_program({"snapshot", scene, "--quiet", "--at", "0.1", "--set", "theme=dark", "-o", folder.file("docs/s.png"), "-o", folder.file("docs/s.svg")}).status, 0);
   ASSERT_EQ(run_program({"ellipse", urdf, "--pose", "0,1", "-o", folder.file("docs/e.png"), "--quiet"}).status, 0);
   const auto asked = [&](const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"check", folder.file("docs"), "--today"};
@@ -106,11 +107,19 @@ TEST(FilmOfToday, FindsWhatPicturesWithoutAuditsShow) {
   folder.write("scenes/rr.urdf", heavier);
   EXPECT_EQ(asked().status, 1);
   EXPECT_THAT(asked().out, AllOf(HasSubstr("s.png is NOT what "), HasSubstr("s.svg is NOT what "), HasSubstr("e.png is NOT what "), HasSubstr("the model file has other bytes")));
-  // Nothing is run for which nobody knows what --set changed.
+  // All come back by the commands that are told, with what --set changed.
   const std::string commands = asked({"--commands"}).out;
-  EXPECT_THAT(commands, AllOf(HasSubstr("# what --set changed is not known, as no audit lies beside it: chainreel snapshot"), HasSubstr("--at 0.1s"), HasSubstr("chainreel ellipse ")));
+  EXPECT_THAT(commands, AllOf(HasSubstr("chainreel snapshot "), HasSubstr("--at 0.1s --set theme=dark -o"), HasSubstr("chainreel ellipse "), Not(HasSubstr("#"))));
+  RunOptions shell;
+  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
+  ASSERT_EQ(run_command({"sh", "-e", "-c", commands}, shell).status, 0);
+  EXPECT_EQ(asked().status, 0) << asked().out;
+  // Nothing is run for which nobody knows what --set changed.
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "--at", "0.1", "--set", "theme=dark", "-o", folder.file("docs/r.png")}).status, 0);
+  fs::remove(folder.file("docs/r.json"));
+  EXPECT_THAT(asked({"--commands"}).out, HasSubstr("# what --set changed is not known, as no audit lies beside it: chainreel snapshot"));
   fs::rename(scene, folder.file("scenes/other.yaml"));
-  EXPECT_THAT(asked().err, AllOf(HasSubstr("2 files are not asked about"), HasSubstr("s.png"), HasSubstr("s.svg")));
+  EXPECT_THAT(asked().err, AllOf(HasSubstr("3 files are not asked about"), HasSubstr("s.png"), HasSubstr("s.svg")));
 }
 
 // What is gone comes back as it was: a picture with its instant, a film with its words.
@@ -279,6 +288,8 @@ TEST(FilmOfToday, AsksTablesToo) {
   EXPECT_THAT(same.err, HasSubstr("1 file is not asked about, as no audit beside it tells the scene (--scene names it): " + folder.file("docs/c.csv")));
   std::string heavier = model;
   const std::string mass = "<mass value=\"";
+  // Which command made it, and as exact as for what, nobody knows.
+  EXPECT_EQ(run_program({"check", folder.file("docs/c.csv"), "--today", "--scene", scene}).status, 3);
   heavier.replace(heavier.find(mass), mass.size(), mass + "1");
   folder.write("rr.urdf", heavier);
   const ProgramResult stale = asked();

@@ -141,6 +141,7 @@ TEST(FallCommand, SaysWhatTheCommandLineSet) {
     return Json::parse(run.out)["title"].get<std::string>();
   };
   EXPECT_EQ(title({"--set", "parameters.k=200"}), "Falls in 0.45 s, k = 200");
+  EXPECT_EQ(title({"--set", "parameters.k=200", "--set", "title=Mine"}), "Mine") << "whoever gives a title says all of it";
   EXPECT_EQ(title({}), "Falls in 0.45 s") << "what the file says is known to who reads it";
 }
 

@@ -23,6 +23,7 @@ namespace chainreel {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -581,6 +582,23 @@ TEST(Outputs, WordsOfAPdfAreReadInEveryFormOfALiteral) {
   EXPECT_EQ(recall(folder.write("c.pdf", head + packed.substr(0, size) + "\nendstream\n")).scene, "model: b\n");
   EXPECT_THROW(recall(folder.write("d.pdf", head + packed.substr(0, size / 3))), Error);
   EXPECT_THROW(recall(folder.write("b.pdf", "%PDF-1.4\n<< /Keywords ({\\")), Error);
+}
+
+// Formulas are nothing without the values of what they read, and nothing else.
+TEST(Outputs, WordsTellTheParametersOfTorques) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(render({"--set", "parameters={k: 12, kk: 5, other: 3}", "--set", "torque=[-k * q1, 2 * k]", "-o", folder.file("a.gif")}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("a.txt")), AllOf(HasSubstr("torques (-k * q1, 2 * k), where k = 12,"), Not(HasSubstr("kk = 5")), Not(HasSubstr("other = 3"))));
+}
+
+// Behind the last frame nothing is shown: what stands at the very end is told on that.
+TEST(Outputs, WordsAtTheVeryEndAreShown) {
+  const TemporaryFolder folder;
+  const auto picture = [&](const std::string& name, const std::string& words) {
+    EXPECT_EQ(render({"--set", "duration=0.2", "--set", "slow_motion=none", "--set", "annotate=[" + words + "]", "-o", folder.file(name)}).status, 0);
+    return read_whole_file(folder.file(name));
+  };
+  EXPECT_NE(picture("a.gif", "{at: 0.2, text: the end}"), picture("b.gif", ""));
 }
 
 TEST(Outputs, EventsAreCaptions) {

@@ -123,6 +123,16 @@ TEST_F(Verify, SaysWhereTheCameraCutsSomethingOff) {
   EXPECT_THAT(verify({"--accept", "home"}).out, HasSubstr("accepted  home\n          it is cut off at the edge"));
 }
 
+// Of a picture without a baseline, too, before it is accepted.
+TEST_F(Verify, SaysWhereTheCameraCutsANewPictureOff) {
+  accept_all();
+  fs::remove(folder_.file("arm.baselines/home.png"));
+  const ProgramResult whole = verify();
+  EXPECT_THAT(whole.out, testing::Not(HasSubstr("cut off at the edge")));
+  replace("rr.urdf", "<origin xyz=\"1 0 0\"/>\n    <parent link=\"link1", "<origin xyz=\"3 0 0\"/>\n    <parent link=\"link1");
+  EXPECT_THAT(words(results(), "home"), testing::AllOf(HasSubstr("there is no baseline"), HasSubstr("cut off at the edge")));
+}
+
 TEST_F(Verify, AcceptsWhatIsNamedAndNothingElse) {
   accept_all();
   const auto before = baselines();

@@ -84,6 +84,15 @@ bool remembers_what_it_shows(const std::string& path) {
   }
 }
 
+// null where it does not tell.
+Json set_remembered(const std::string& path) {
+  try {
+    return recall(path).audit.value(kSet, Json());
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
 // What an audit tells of that lay beside it, and does not any more.
 void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
   const Json json = audit_beside(audit);
@@ -93,7 +102,7 @@ void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
     const std::string file = (folder / fs::path(word_of(one, "file")).filename()).string();
     std::error_code code;
     if (find_output_format(file) != nullptr && !fs::exists(fs::symlink_status(file, code)))
-      list.push_back({file, {json, false, folder.string()}, true, "", one.value("at", Json())});
+      list.push_back({file, {json, false, folder.string()}, true, "", nullptr, one.value("at", Json())});
   }
 }
 
@@ -140,7 +149,7 @@ AskedFilms asked_films(const std::vector<std::string>& paths) {
   ScenesRemembered scenes;
   const auto asked = [&](const std::string& file) {
     AskedFilm film{file, own_audit(file, audits)};
-    if (!film.audit.json.is_object() && !is_table(file)) film.scene = scenes.of(file);
+    if (!film.audit.json.is_object() && !is_table(file)) film.scene = scenes.of(file), film.set = set_remembered(file);
     return film;
   };
   for (const std::string& path : paths) {

@@ -21,6 +21,7 @@ struct AskedFilm {
   OwnAudit audit{};
   bool is_gone = false;     // the audit tells of it, and it is not there
   std::string scene{};      // where no audit tells of it, the one of the name that it remembers
+  Json set = nullptr;       // likewise, what --set changed, as pictures of `snapshot` remember; null: nobody knows
   Json at = nullptr;        // of a picture that is gone: its instant, s
 };
 

@@ -211,7 +211,7 @@ void print_summary(const WorkPrecision& data, const Measured& measured, const Ch
   if (options.judges_energy())
     std::printf("error: of the energy, the largest at the end of any step\n");
   else
-    std::printf("error: at the end of the run, %s; how far each method strays on the way there, in metres: `chainreel check SCENE --all`; "
+    std::printf("error: at the end of the run, %s; how far each method strays on the way there, in the unit of `accuracy`: `chainreel check SCENE --all`; "
                 "by the energy: --error energy\n",
                 scale_text(measured).c_str());
   std::printf("reference: %s, uncertainty %s; the motion magnifies errors %s times\n",

@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 // Keys of an audit that are no part of what is shown: versions and the model's file, which are told by themselves, where the
 // scene lies, and how the method was chosen that both have.
 bool is_beside(const std::string& key) {
-  constexpr std::array<std::string_view, 4> kKeys = {"versions", "model_sha256", "scene", "auto"};
+  constexpr std::array<std::string_view, 5> kKeys = {"versions", "model_sha256", "scene", "auto", "set"};
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
@@ -117,6 +117,7 @@ struct Today {
   bool has_other_versions = false;
   std::optional<Error> trouble{};  // it cannot be told
   bool is_gone = false;          // an audit tells of it, and it is not there
+  bool has_audit = true;         // beside it, as what `render` made has
   bool knows_set = true;         // what the command line changed when it was made
   std::vector<std::string> set{};      // that, and what is given now
   std::vector<std::string> command{};  // what makes it anew; none where that is not known
@@ -152,10 +153,15 @@ std::vector<ClipMemory> memories_today(const PreparedFilm& film, const std::stri
   return memories;
 }
 
-// What the command line changed when it was made, as its audit tells, and what is given now.
-std::vector<std::string> changes_of(const OwnAudit& audit, const CommonOptions& common) {
+// What the command line changed when it was made, as its audit tells, or a picture of `snapshot` itself; null where neither does.
+Json set_of(const AskedFilm& asked) {
+  return asked.audit.json.is_object() ? asked.audit.json.value(kSet, Json::array()) : asked.set;
+}
+
+// That, and what is given now.
+std::vector<std::string> changes_of(const AskedFilm& asked, const CommonOptions& common) {
   std::vector<std::string> set;
-  const Json told = audit.json.is_object() ? audit.json.value(kSet, Json::array()) : Json::array();
+  const Json told = set_of(asked);
   for (const Json& one : told.is_array() ? told : Json::array())
     if (one.is_string()) set.push_back(one);
   for (const std::string& one : overrides_of(common)) set.push_back(one);
@@ -169,7 +175,7 @@ std::vector<std::string> remaking_command(const Today& today, const Json& at) {
   const auto file = [](const std::string& path) { return path.starts_with('-') ? "./" + path : path; };  // else it would be a flag
   const bool is_picture = find_output_format(today.path, Shows::motion) == nullptr && at.is_number();
   std::vector<std::string> words{"chainreel", "render", file(today.scene)};
-  if (is_picture && !today.knows_set) words[1] = "snapshot";
+  if (is_picture && !today.has_audit) words[1] = "snapshot";
   if (is_picture) words.insert(words.end(), {"--at", format_significant(at.get<double>(), kDigitsOfInstant) + "s"});
   for (const std::string& one : today.set) words.insert(words.end(), {"--set", one});
   words.insert(words.end(), {"-o", file(today.path), "--force"});
@@ -177,13 +183,14 @@ std::vector<std::string> remaking_command(const Today& today, const Json& at) {
 }
 
 PreparedFilm film_behind(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
-  return load_film(scene.empty() ? scene_behind(asked) : scene, changes_of(asked.audit, common), true, common.quiet);
+  return load_film(scene.empty() ? scene_behind(asked) : scene, changes_of(asked, common), true, common.quiet);
 }
 
 // `at`: of a picture, its instant.
-void tell_remaking(Today& today, const OwnAudit& audit, const CommonOptions& common, const Json& at) {
-  today.knows_set = audit.json.is_object();
-  today.set = changes_of(audit, common);
+void tell_remaking(Today& today, const AskedFilm& asked, const CommonOptions& common, const Json& at) {
+  today.has_audit = asked.audit.json.is_object();
+  today.knows_set = set_of(asked).is_array();
+  today.set = changes_of(asked, common);
   today.command = remaking_command(today, at);
 }
 
@@ -195,11 +202,13 @@ std::string page_of_table(const std::string& path) {
 
 // A table of `render`: it remembers nothing, and is made again.
 Today table_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
+  if (!asked.audit.json.is_object())
+    throw Error(ExitCode::bad_input, "is a table that no audit beside it tells of: of those of `render` alone it can be told whether they would be the same today", {asked.path});
   const std::string& path = asked.path;
   const OwnAudit& audit = asked.audit;
   const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = path, .scene = film.scene.file};
-  tell_remaking(found, audit, common, nullptr);
+  tell_remaking(found, asked, common, nullptr);
   const Runs runs(film);
   const std::string bytes = read_plain_file(path);
   const std::string page = page_of_table(path);
@@ -219,7 +228,7 @@ Today table_of_today(const AskedFilm& asked, const std::string& scene, const Com
 Today gone_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = asked.path, .scene = film.scene.file, .is_gone = true};
-  tell_remaking(found, asked.audit, common, asked.at);
+  tell_remaking(found, asked, common, asked.at);
   if (is_table(asked.path) && film.panels.size() > 1) std::ranges::replace(found.command, asked.path, page_of_table(asked.path));
   return found;
 }
@@ -254,7 +263,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
   for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
-  tell_remaking(nearest, audit, common, remembered.audit.value("at", Json()));
+  tell_remaking(nearest, asked, common, remembered.audit.value("at", Json()));
   return nearest;
 }
 

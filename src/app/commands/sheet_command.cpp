@@ -173,7 +173,7 @@ std::vector<ContactCell> cells_of(const std::string& file, const SheetOptions& o
   Moments moments(film, *page.look.fonts);
   std::vector<Moment> shown;
   if (asked.empty()) shown.push_back(moments.telling());
-  for (const double at : instants_asked(film, asked)) shown.push_back(moments.moment(at));
+  for (Moment& moment : moments.together(instants_asked(film, asked))) shown.push_back(std::move(moment));
   std::vector<ContactCell> cells;
   for (Moment& moment : shown) {
     if (cells.empty()) tell_warnings(moment.warnings);

@@ -24,6 +24,7 @@
 #include "app/report/instant_report.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
+#include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"
@@ -201,6 +202,7 @@ void snapshot_scene(const SnapshotOptions& options) {
   for (std::size_t i = 0; i < instants.size(); ++i) {
     Moment shown = moments.moment(instants[i]);
     if (options.paper.is_given()) shown.memory.width_mm = options.paper.width_mm;
+    shown.memory.audit[kSet] = film.scene.set;  // nothing lies beside a picture that would tell
     if (i == 0) tell_warnings(shown.warnings);
     if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
     pictures.write(i, shown.picture, fonts, shown.memory);
@@ -266,14 +268,14 @@ void snapshot_model(const SnapshotOptions& options) {
   const bool is_named = std::any_of(options.poses.begin(), options.poses.end(), [&](const std::string& text) {
     return !named_pose(chain, text).name.empty();
   });
-  // Poses without names in one file are one picture with all of them.
+  // Poses without names in one file are one picture with all of them; a file for one that has a name has its own.
   OutputPlace place = place_of(options, is_named ? options.poses.size() : 1);
   if (is_named && options.outputs.empty())
     place = {{"out/" + std::filesystem::path(options.file).stem().string()}, true};
-  if (is_named && !place.is_folder)
+  if (is_named && !place.is_folder && options.poses.size() > 1)
     throw Error(ExitCode::usage, "-o " + options.outputs.front() +
-                                     ": a pose with a name is a file of its own in a folder: name that, " +
-                                     "like -o out/, or leave the name out");
+                                     ": poses with names are files of their own in a folder: name that, " +
+                                     "like -o out/, or leave the names out");
   const std::vector<PosePicture> shown = pose_pictures(chain, options, place.is_folder);
   std::vector<std::string> names;
   for (const PosePicture& one : shown) names.push_back(one.name);

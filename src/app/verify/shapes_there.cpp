@@ -56,7 +56,7 @@ struct NameOf {
   }
   std::string operator()(const Arc&) const { return "an arc"; }
   std::string operator()(const Polygon&) const { return "a polygon"; }
-  std::string operator()(const Trail&) const { return "a curve"; }
+  std::string operator()(const Trail&) const { return "a curve or an outline"; }
   std::string operator()(const GlyphRun& s) const { return "the text '" + s.text + "'"; }
   std::string operator()(const Cells&) const { return "coloured cells"; }
   std::string operator()(const Solids&) const { return "bodies"; }

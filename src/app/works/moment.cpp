@@ -98,6 +98,16 @@ Moment Moments::moment(double at) {
   return of_frames_->moment(frame);
 }
 
+std::vector<Moment> Moments::together(const std::vector<double>& at) {
+  std::vector<Moment> moments;
+  if (at.empty()) return moments;
+  Instants instants = instants_of(film_, clock_, at);
+  const std::vector<int> frames = instants.frames;
+  const State state(film_, clock_, std::move(instants), fonts_);
+  for (const int frame : frames) moments.push_back(state.moment(frame));
+  return moments;
+}
+
 Moment Moments::telling() {
   return moment(telling_instant(Runs(film_, clock_, clock_.frame_times())));
 }

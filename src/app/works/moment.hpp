@@ -34,6 +34,8 @@ class Moments {
   // Throws Error (exit 5) where a run does not come that far or does not end as the scene expects; what fails
   // later does not spoil the picture.
   Moment moment(double at);
+  // Those of one run, which one camera sees.
+  std::vector<Moment> together(const std::vector<double>& at);
   // The one that says most: when the last event happened, else the middle of the longest run.
   Moment telling();
 

@@ -187,6 +187,18 @@ TEST(EllipseFigure, HasPosesAndMatricesBesidePicturesThatAreWide) {
   }
 }
 
+// A pose whose mass is far above those of the others is cut and does not make them small; one that is but larger is seen whole.
+TEST(EllipseFigure, OneFarHeavierPoseDoesNotMakeTheOthersSmall) {
+  const auto largest = [](double degrees) {
+    const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), {{0, degrees * kOneDegree}, {0, 60 * kOneDegree}, {0, 90 * kOneDegree}, {0, 150 * kOneDegree}}, {}, fonts());
+    double length = 0;  // of the pose at 90 degrees, 2 kg, beside its link's
+    for (const Ellipse& e : test::all_of<Ellipse>(picture, is_mass_ellipse))
+      if (std::abs(test::length(e.u) - 2 * test::length(e.v)) < 1e-9) length = test::length(e.u);
+    return length;
+  };
+  EXPECT_GT(largest(15), 0.7 * largest(25)) << "15.9 kg beside 6.6 kg: in the ratio of the masses it would be 0.42";
+}
+
 // The number of each axis is nearer to an end of that axis than to one of the other, or a line leads there: whatever the pose.
 TEST(EllipseFigure, NumbersStandBesideTheAxisThatTheyAreOf) {
   const Chain chain = test::model("rr");

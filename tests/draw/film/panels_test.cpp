@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "core/error.hpp"
 #include "draw/chains.hpp"
@@ -111,6 +112,20 @@ TEST_F(PanelFilm, AbbreviatesTitlesThatWereMadeUp) {
   scenes[0]->title = "Said in so many words that no panel could hold them, however small their letters, as small as they may be, and smaller";
   scenes[0]->places["title"] = {"scenes/test.yaml", 3, 4};
   EXPECT_THROW(film(), Error);
+}
+
+// Up to four variants have colours of their own; of more, that no plot tells apart, links look as always.
+TEST_F(PanelFilm, ColoursFewVariantsAndNotMany) {
+  const auto colours_of_titles = [this] {
+    std::set<std::array<int, 3>> colours;
+    for (const GlyphRun& run : test::all_of<GlyphRun>(film().frame(0), [](const GlyphRun& run) { return run.face == Face::label_bold && run.text.starts_with("run"); }))
+      colours.insert({run.color.r, run.color.g, run.color.b});
+    return colours.size();
+  };
+  for (const char* title : {"run a", "run b", "run c", "run d"}) add(title, [](double t) { return std::vector<double>{t, 0.1}; });
+  EXPECT_EQ(colours_of_titles(), 4u);
+  for (const char* title : {"run e", "run f"}) add(title, [](double t) { return std::vector<double>{t, 0.1}; });
+  EXPECT_EQ(colours_of_titles(), 1u);
 }
 
 TEST_F(PanelFilm, ShowsEachGripperWhereItsOwnRunHasIt) {
