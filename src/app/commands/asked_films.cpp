@@ -87,7 +87,8 @@ bool remembers_what_it_shows(const std::string& path) {
 // null where it does not tell.
 Json set_remembered(const std::string& path) {
   try {
-    return recall(path).audit.value(kSet, Json());
+    const Json audit = recall(path).audit;
+    return audit.is_object() ? audit.value(kSet, Json()) : Json();
   } catch (const Error&) {
     return nullptr;
   }

@@ -27,10 +27,10 @@ class Candidates {
   // The starts, those around them, then those below them.
   explicit Candidates(const std::vector<fs::path>& starts) {
     for (const fs::path& start : starts) add(start, 0);
-    // Of the first one around a start, what lies beside it, too.
+    // Below the first two around a start it is looked, too: two folders deep, and one.
     for (fs::path start : starts)
       for (int up = 0; up < kHighest && start.has_relative_path(); ++up)
-        add(start = start.parent_path(), up == 0 ? kDeepest - 1 : kDeepest);
+        add(start = start.parent_path(), kDeepest - std::max(0, 2 - up));
   }
 
   std::optional<fs::path> next() {

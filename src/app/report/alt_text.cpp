@@ -52,7 +52,7 @@ std::string control_words(const Control& control, const std::string& end_effecto
   return joined(parts, " and ");
 }
 
-// ", where k = 1200 and lean = 0.05,": the parameters that formulas read.
+// ", where k = 1200, lean = 0.05": the parameters that formulas read.
 std::string where_words(const Scene& scene, const std::string& formulas) {
   const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   const auto reads = [&](const std::string& name) {
@@ -65,7 +65,7 @@ std::string where_words(const Scene& scene, const std::string& formulas) {
   std::vector<std::string> values;
   for (const auto& [name, value] : scene.parameters)
     if (reads(name)) values.push_back(name + " = " + format_significant(value, 4));
-  return values.empty() ? "" : ", where " + joined(values) + ",";
+  return values.empty() ? "" : ", where " + joined(values);
 }
 
 std::string torque_words(const Scene& scene) {

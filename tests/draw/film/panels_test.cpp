@@ -118,7 +118,7 @@ TEST_F(PanelFilm, AbbreviatesTitlesThatWereMadeUp) {
 TEST_F(PanelFilm, ColoursFewVariantsAndNotMany) {
   const auto colours_of_titles = [this] {
     std::set<std::array<int, 3>> colours;
-    for (const GlyphRun& run : test::all_of<GlyphRun>(film().frame(0), [](const GlyphRun& run) { return run.face == Face::label_bold && run.text.starts_with("run"); }))
+    for (const GlyphRun& run : test::all_of<GlyphRun>(film().static_layer(), [](const GlyphRun& run) { return run.face == Face::label_bold && run.text.starts_with("run"); }))
       colours.insert({run.color.r, run.color.g, run.color.b});
     return colours.size();
   };
