@@ -1,5 +1,7 @@
 #include "model/constraint.hpp"
 
+#include <algorithm>
+
 namespace chainreel {
 
 namespace {
@@ -20,6 +22,14 @@ struct NameOf {
 };
 
 }  // namespace
+
+const char* unit_of_misses(const std::vector<Constraint>& constraints) {
+  const auto keeps_angles = [](const Constraint& one) {
+    if (const auto* close = std::get_if<CloseConstraint>(&one)) return close->kind != Closure::point;
+    return std::holds_alternative<JointConstraint>(one) || std::holds_alternative<LinearConstraint>(one);
+  };
+  return std::any_of(constraints.begin(), constraints.end(), keeps_angles) ? "m or rad" : "m";
+}
 
 std::string name_of(const Constraint& constraint) {
   return std::visit(NameOf{}, constraint);

@@ -88,6 +88,9 @@ struct LinearConstraint {
 using Constraint = std::variant<LineConstraint, PlaneConstraint, PointConstraint, DistanceConstraint,
                                 CloseConstraint, CurveConstraint, JointConstraint, LinearConstraint>;
 
+// "m" where all of them keep places alone, "m or rad" where some keep angles or coordinates.
+const char* unit_of_misses(const std::vector<Constraint>& constraints);
+
 // "line gripper", "close a b": for messages and as the stem of its rows' names.
 std::string name_of(const Constraint& constraint);
 

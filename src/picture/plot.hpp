@@ -28,6 +28,7 @@ struct Axis {
   double low = 0, high = 1;
   std::string title{};  // with the unit in brackets, formulas between dollar signs: "$tau$ [N m]"
   std::string last_unit{};  // linear axes: the last number stands at the end, with this unit; "": where it falls
+  std::vector<double> at{};  // where ticks stand, as far as they have room; none: at round numbers
 };
 
 struct PlotStyle {

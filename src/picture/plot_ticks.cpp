@@ -57,7 +57,8 @@ std::vector<Tick> linear_ticks(const Axis& axis, int most) {
   const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
   const int step_exponent = int(std::floor(std::log10(step) + kSlack));
   const int exponent = int(std::floor(std::log10(largest) + kSlack));
-  const bool needs_power = largest >= 1e5 || step < 0.999e-4;
+  // Small steps beside 1 to 9999 need digits, not a power: 1.04720.
+  const bool needs_power = largest >= 1e5 || (step < 0.999e-4 && !(exponent >= 0 && step >= 0.999e-7));
   const int decimals = std::max(0, (needs_power ? exponent : 0) - step_exponent);
   std::vector<Tick> ticks;
   for (const double value : multiples(axis, step)) {
@@ -142,7 +143,16 @@ std::vector<Tick> log_ticks(const Axis& axis, int most) {
 
 }  // namespace
 
+// At every one of the values, or every other one, ..
+static std::vector<Tick> ticks_at(const std::vector<double>& values, int most) {
+  const std::size_t every = (values.size() + std::size_t(std::max(most, 1)) - 1) / std::size_t(std::max(most, 1));
+  std::vector<Tick> ticks;
+  for (std::size_t i = 0; i < values.size(); i += every) ticks.push_back({values[i], signed_text(format_significant(values[i], 4)), ""});
+  return ticks;
+}
+
 std::vector<Tick> ticks_of(const Axis& axis, int most) {
+  if (!axis.at.empty()) return ticks_at(axis.at, most);
   switch (axis.scale) {
     case Scale::linear:
       return linear_ticks(axis, most);

@@ -66,10 +66,10 @@ std::string cornered_curve(const Simulation& simulation) {
   return "";
 }
 
-std::optional<Doubt> doubt_constraints(const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by) {
+std::optional<Doubt> doubt_constraints(const Simulation& simulation, const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by) {
   if (!(trajectory.position_error > kDoubtfulConstraint)) return {};
   return Doubt{"constraint", trajectory.position_error,
-               "the constraints are missed by up to " + format_significant(trajectory.position_error, 3) + " m or rad",
+               "the constraints are missed by up to " + format_significant(trajectory.position_error, 3) + " " + unit_of_misses(simulation.constraints.list),
                "--set stabilize=project, or " + (chosen_by ? finer_choice(*chosen_by, kTightening) : "a shorter step")};
 }
 
@@ -200,7 +200,7 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
   if (simulation.motion) return doubts;  // no method erred: what a table does not tell truly, its remarks say
   add(doubt_of_rest(simulation));
   add(doubt_of_energy(simulation, trajectory, audit, chosen_by));
-  if (trajectory.rows > 0) add(doubt_constraints(trajectory, chosen_by));
+  if (trajectory.rows > 0) add(doubt_constraints(simulation, trajectory, chosen_by));
   // Steps end at corners of the state; taken again across one they would be others. What `auto` took has been judged.
   const bool has_corners = simulation.torque && simulation.torque->corners() != nullptr;
   if (simulation.step > 0 && !follows_a_curve(simulation) && !(has_corners && chosen_by)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));

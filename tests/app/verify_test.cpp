@@ -238,6 +238,7 @@ TEST_F(Verify, LooksAtThePicturesThatAFilterNames) {
   accept_all();
   replace("arm.yaml", "60deg", "61deg");
   EXPECT_EQ(verify({"--filter", "[hu]*"}).status, 0);
+  EXPECT_THAT(verify({"--filter", "[hu]*"}).err, testing::ContainsRegex("--filter leaves [0-9]+ of [0-9]+ pictures out"));
   EXPECT_EQ(verify({"--filter", "b*"}).status, 1);
   EXPECT_EQ(verify({"--filter", "none*"}).status, 2);
 }

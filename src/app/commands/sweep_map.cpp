@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "app/commands/map_axes.hpp"
@@ -73,6 +74,20 @@ std::string method_of(const Grid& grid, const Scene& scene) {
   return varies_method(grid) || scene.chooses_method() ? "" : ", " + method_title(scene.method) + method_text(scene).substr(scene.method.size());
 }
 
+// With ticks at the values, where these are few, and angles in degrees, as they are read.
+Axis axis_of(const Sweep& sweep) {
+  constexpr std::size_t kFewValues = 12;
+  Axis axis = map_axis(sweep);
+  if (!sweep.logarithmic && sweep.numbers.size() <= kFewValues) axis.at = sweep.numbers;
+  const std::size_t unit = axis.title.find("[rad]");
+  if (unit == std::string::npos || sweep.logarithmic) return axis;
+  constexpr double kDegree = 180 / std::numbers::pi;
+  axis.title.replace(unit, 5, "[deg]");
+  for (double* end : {&axis.low, &axis.high}) *end *= kDegree;
+  for (double& tick : axis.at) tick = std::round(1e9 * kDegree * tick) / 1e9;
+  return axis;
+}
+
 }  // namespace
 
 bool is_map_path(const std::string& path) {
@@ -124,8 +139,8 @@ StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& 
   if (header.empty()) throw Error(ExitCode::bad_input, "has no line of names", {path});
   map.title = title_over_runs(scene);
   map.subtitle = std::to_string(grid.size()) + " runs of " + format_quantity(scene.duration, "s") + method_of(grid, scene);
-  map.x = map_axis(x);
-  map.y = map_axis(y);
+  map.x = axis_of(x);
+  map.y = axis_of(y);
   map.is_linear = true;
   map.error_title = title_of_column(header[column]);
   map.hatched = "no value";

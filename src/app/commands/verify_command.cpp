@@ -417,6 +417,8 @@ void verify(const VerifyOptions& options) {
   result.pictures = Verification(suite, options, baselines, cameras, acceptance).run(chosen);
   throw_if_interrupted();
   if (!options.refit) result.notices = lost_cameras(suite, baselines, kept);
+  if (const std::size_t left = suite.pictures.size() - chosen.size(); left > 0)
+    result.notices.push_back("--filter leaves " + std::to_string(left) + " of " + std::to_string(suite.pictures.size()) + " pictures out: of them nothing is said");
   tell_of_former_names(result);
   update(options, cameras, acceptance, result);
   write_reports(options, result);

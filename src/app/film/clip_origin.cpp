@@ -19,18 +19,19 @@ namespace fs = std::filesystem;
 
 constexpr int kDeepest = 4;                  // folders below one that is looked in
 constexpr int kHighest = 3;                  // .. and above
+constexpr int kBeside = 2;                   // scenes often lie beside the folder of their pictures
 constexpr std::size_t kMostFolders = 3'000;  // a home may hold millions
 
 // Folders in which the files may be, nearest first. One at a time: most searches end with the first.
 class Candidates {
  public:
-  // The starts, those around them, then those below them.
-  explicit Candidates(const std::vector<fs::path>& starts) {
+  // The starts, those around them, then those below them. `beside`: so many folders deep below the first one around a start it is looked, too,
+  // one less below the next.
+  explicit Candidates(const std::vector<fs::path>& starts, int beside = 0) {
     for (const fs::path& start : starts) add(start, 0);
-    // Below the first two around a start it is looked, too: two folders deep, and one.
     for (fs::path start : starts)
       for (int up = 0; up < kHighest && start.has_relative_path(); ++up)
-        add(start = start.parent_path(), kDeepest - std::max(0, 2 - up));
+        add(start = start.parent_path(), kDeepest - std::max(0, beside - up));
   }
 
   std::optional<fs::path> next() {
@@ -142,7 +143,7 @@ ClipOrigin find_nearest(const std::string& clip, const std::vector<WantedFile>& 
   std::error_code code;
   const fs::path here = fs::current_path(code);
   for (const fs::path& start : {(here / clip).lexically_normal().parent_path(), here}) {
-    Candidates candidates({start});
+    Candidates candidates({start}, kBeside);
     while (const std::optional<fs::path> folder = candidates.next())
       if (ClipOrigin origin = look_in(*folder, wanted); origin.is_found) return origin;
   }

@@ -214,7 +214,7 @@ std::string constraint_lines(const FilmReport& report) {
   for (const RunReport& run : report.panels) {
     if (run.trajectory.rows == 0) continue;
     const Json& facts = run.constraints();
-    text += "Constraints: " + where_of(report, run) + "missed by " + format_significant(run.trajectory.position_error, 2) + " m or rad at most";
+    text += "Constraints: " + where_of(report, run) + "missed by " + format_significant(run.trajectory.position_error, 2) + " " + unit_of_misses(run.prepared.simulation.constraints.list) + " at most";
     const std::vector<std::string> columns = multiplier_columns(run.prepared.simulation.chain, run.prepared.simulation.constraints.list);
     for (std::size_t i = 0; i < columns.size(); ++i)
       text += (i == 0 ? "; largest multipliers: " : ", ") + columns[i] + " " +

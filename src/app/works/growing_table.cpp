@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
@@ -205,18 +206,30 @@ void require_hash_of_rows(const std::string& path) {
   if (!has_hash_of_rows(path)) refuse_changed(path);
 }
 
-// The table that the hidden file becomes.
-std::string GrowingTable::whole() const {
+void GrowingTable::write_table(std::ostream& table) const {
   std::ifstream stream(hidden_, std::ios::binary);
-  std::string text;
-  for (std::string line; std::getline(stream, line);)
-    if (!line.starts_with(kSoFar)) text += line + "\n";
-  return text + kHashOfRows + sha256_of(text) + "\n";
+  Sha256 hash;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(kSoFar)) continue;
+    line += '\n';
+    hash.add(std::as_bytes(std::span(line)));
+    table << line;
+  }
+  table << kHashOfRows << hash.finish() << '\n';
 }
 
 void GrowingTable::commit(const std::function<std::string(const std::string& csv)>& file_of) {
   OutputFile output(path_, overwrite_);
-  write_whole(output, file_of ? file_of(whole()) : whole());
+  if (file_of) {
+    std::ostringstream table;
+    write_table(table);
+    write_whole(output, file_of(table.str()));
+  } else {  // row by row, since a million need not fit into memory
+    std::ofstream table(output.temporary_path(), std::ios::binary | std::ios::trunc);
+    write_table(table);
+    if (!table.flush()) throw Error(ExitCode::file, std::string("could not be written whole (") + std::strerror(errno) + ")", {path_});
+    output.commit();
+  }
   std::error_code code;
   fs::remove(hidden_, code);
 }

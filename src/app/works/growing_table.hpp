@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <map>
 #include <mutex>
 #include <string>
@@ -44,7 +45,8 @@ class GrowingTable {
 
  private:
   void append(const std::string& text);
-  std::string whole() const;
+  // What the hidden file becomes.
+  void write_table(std::ostream& table) const;
 
   std::string path_, hidden_;
   std::string hash_;  // of the rows so far

@@ -19,7 +19,7 @@ constexpr double kStepLadder[] = {0.2,  0.1,  0.05, 0.02, 0.01, 5e-3, 2e-3,
 constexpr double kToleranceLadder[] = {1e-2, 1e-3, 1e-4,  1e-5,  1e-6,  1e-7,
                                        1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
 constexpr int kOrders[] = {12, 20};
-constexpr std::size_t kMostBreaks = 1000;  // of a torque at which runs are compared
+constexpr std::size_t kMostBreaks = 4000;  // of a torque at which runs are compared; of more, as of long tables, some, evenly
 constexpr double kSameInstant = 1e-9;      // of the duration
 constexpr double kShareOfCandidate = 0.1;  // of the budget, where nothing is exact enough yet
 // Where a part of the run decides, what is cheapest there may be dear behind: candidates are looked at up to this many
