@@ -120,6 +120,14 @@ TEST(ManySnapshots, UnnamedPosesInOneFileStayOnePicture) {
   EXPECT_EQ(recall(folder.file("a.png")).figure["poses"].size(), 2u);
 }
 
+// A pose that has a name is the picture of the file that is named, as without it.
+TEST(ManySnapshots, OneNamedPoseMayHaveAFileOfItsOwn) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"snapshot", "models/rr.urdf", "--pose", "a=0,1", "-o", folder.file("a.png"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_program({"snapshot", "models/rr.urdf", "--pose", "0,1", "-o", folder.file("b.png"), "--quiet"}).status, 0);
+  EXPECT_EQ(read_whole_file(folder.file("a.png")), read_whole_file(folder.file("b.png")));
+}
+
 TEST(ManySnapshots, WhatIsUnclearIsRefusedBeforeAnythingIsWritten) {
   const TemporaryFolder folder;
   const auto trouble = [&](const Words& words) {
@@ -139,7 +147,7 @@ TEST(ManySnapshots, WhatIsUnclearIsRefusedBeforeAnythingIsWritten) {
   EXPECT_EQ(run_program({"snapshot", "assets/scenes/rr_free.yaml", "--at", "0,1", "-o", folder.file("a.png")})
                 .status,
             2);
-  EXPECT_EQ(run_program({"snapshot", "models/rr.urdf", "--pose", "a=0,1", "-o", folder.file("a.png")}).status,
+  EXPECT_EQ(run_program({"snapshot", "models/rr.urdf", "--pose", "a=0,1", "--pose", "b=1,0", "-o", folder.file("a.png")}).status,
             2);
   EXPECT_THAT(names_in(folder.path()), testing::IsEmpty());
   // A file of others is not written over, and then none of the others either.

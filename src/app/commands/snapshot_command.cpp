@@ -24,7 +24,6 @@
 #include "app/report/instant_report.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
-#include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 #include "draw/figures/poses.hpp"
@@ -202,7 +201,6 @@ void snapshot_scene(const SnapshotOptions& options) {
   for (std::size_t i = 0; i < instants.size(); ++i) {
     Moment shown = moments.moment(instants[i]);
     if (options.paper.is_given()) shown.memory.width_mm = options.paper.width_mm;
-    shown.memory.audit[kSet] = film.scene.set;  // nothing lies beside a picture that would tell
     if (i == 0) tell_warnings(shown.warnings);
     if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
     pictures.write(i, shown.picture, fonts, shown.memory);

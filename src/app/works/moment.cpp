@@ -7,6 +7,7 @@
 #include "app/report/alt_text.hpp"
 #include "app/report/instant_report.hpp"
 #include "app/report/run_report.hpp"
+#include "app/report/sidecar.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "scene/run/title.hpp"
@@ -50,6 +51,7 @@ struct Moments::State {
     moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, runs[0]) : title_of_page(film.scene);
     moment.memory = memory;
     moment.memory.audit["at"] = moment.at;
+    moment.memory.audit[kSet] = film.scene.set;  // no audit lies beside a picture by itself
     moment.warnings = warnings;
     if (moment.at > last_end() + kSameInstant)
       moment.warnings.push_back(film.scene.name + ": every run had ended by t = " + format_significant(last_end(), 4) +
