@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "app/cli/streams.hpp"
 #include "app/film/clip_memory.hpp"
@@ -75,23 +76,18 @@ std::string model_of_figure(const Json& figure) {
   return word_of(figure, "model_sha256").empty() ? "" : fs::path(word_of(figure, "model")).filename().string();
 }
 
-bool remembers_what_it_shows(const std::string& path) {
+// What a film or picture remembers; nothing of tables, and of files that remember nothing.
+std::optional<ClipMemory> memory_in(const std::string& path) {
+  if (is_table(path)) return std::nullopt;
   try {
-    const ClipMemory memory = recall(path);
-    return memory.figure.is_null() || !model_of_figure(memory.figure).empty();
+    return recall(path);
   } catch (const Error&) {
-    return false;
+    return std::nullopt;
   }
 }
 
-// null where it does not tell.
-Json set_remembered(const std::string& path) {
-  try {
-    const Json audit = recall(path).audit;
-    return audit.is_object() ? audit.value(kSet, Json()) : Json();
-  } catch (const Error&) {
-    return nullptr;
-  }
+bool tells_what_it_shows(const ClipMemory& memory) {
+  return memory.figure.is_null() || !model_of_figure(memory.figure).empty();
 }
 
 // What an audit tells of that lay beside it, and does not any more.
@@ -111,9 +107,8 @@ void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
 class ScenesRemembered {
  public:
   // "" where there is none.
-  std::string of(const std::string& path) {
+  std::string of(const std::string& path, const ClipMemory& memory) {
     try {
-      const ClipMemory memory = recall(path);
       const std::string name = memory.figure.is_null() ? word_of(memory.audit, "scene") : model_of_figure(memory.figure);
       if (name.empty() || fs::path(name).filename() != fs::path(name)) return "";
       return look_for(path, name, files_wanted_by(memory));
@@ -148,15 +143,17 @@ AskedFilms asked_films(const std::vector<std::string>& paths) {
   AskedFilms all;
   AuditsOfFolders audits;
   ScenesRemembered scenes;
-  const auto asked = [&](const std::string& file) {
+  const auto asked = [&](const std::string& file, const std::optional<ClipMemory>& memory) {
     AskedFilm film{file, own_audit(file, audits)};
-    if (!film.audit.json.is_object() && !is_table(file)) film.scene = scenes.of(file), film.set = set_remembered(file);
+    if (film.audit.json.is_object() || !memory) return film;
+    film.scene = scenes.of(file, *memory);
+    if (memory->audit.is_object()) film.set = memory->audit.value(kSet, Json());
     return film;
   };
   for (const std::string& path : paths) {
     std::error_code code;
     if (!fs::is_directory(path, code)) {
-      all.list.push_back(asked(path));
+      all.list.push_back(asked(path, memory_in(path)));
       continue;
     }
     const std::size_t before = all.list.size();
@@ -166,7 +163,8 @@ AskedFilms asked_films(const std::vector<std::string>& paths) {
       if (entry->is_regular_file(code) && lower_case_ending(file) == ".json") add_gone(file, all.list);
       const OutputFormat* format = find_output_format(file);
       if (!entry->is_regular_file(code) || format == nullptr || (format->read_tags == nullptr && format->shows != Shows::table)) continue;
-      AskedFilm film = is_table(file) || remembers_what_it_shows(file) ? asked(file) : AskedFilm{file};
+      const std::optional<ClipMemory> memory = memory_in(file);
+      AskedFilm film = is_table(file) || (memory && tells_what_it_shows(*memory)) ? asked(file, memory) : AskedFilm{file};
       if (film.audit.json.is_object() || !film.scene.empty())
         all.list.push_back(std::move(film));
       else
