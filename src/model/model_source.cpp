@@ -13,4 +13,8 @@ std::string ModelSource::sha256() const {
   return links ? sha256_of(urdf()) : sha256_of_file(path);
 }
 
+std::string ModelSource::elements_sha256() const {
+  return sha256_of_elements(urdf(), path);
+}
+
 }  // namespace chainreel

@@ -24,6 +24,8 @@ struct ModelSource {
   std::string urdf() const;
   // Of the URDF's bytes.
   std::string sha256() const;
+  // Of what it says: comments and line breaks are no part of it.
+  std::string elements_sha256() const;
 
   friend bool operator==(const ModelSource& a, const ModelSource& b) { return a.path == b.path && a.links == b.links; }
 };

@@ -1,11 +1,14 @@
 #include "model/xml_text.hpp"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/input_file.hpp"
 
 namespace chainreel {
@@ -82,6 +85,13 @@ class XmlScanner {
   int attributes_ = 0;
 };
 
+// Elements, their attributes and their words, each on one line.
+class ElementPrinter : public tinyxml2::XMLPrinter {
+ public:
+  ElementPrinter() : XMLPrinter(nullptr, true) {}
+  bool Visit(const tinyxml2::XMLComment&) override { return true; }
+};
+
 }  // namespace
 
 void check_xml_limits(const std::string& text, const std::string& path) {
@@ -134,6 +144,15 @@ std::string read_xml_text(const std::string& path) {
     throw Error(ExitCode::bad_input, "holds zero bytes: it is no XML text in UTF-8", {path});
   check_xml_limits(text, path);
   return text;
+}
+
+std::string sha256_of_elements(const std::string& text, const std::string& path) {
+  tinyxml2::XMLDocument document(true, tinyxml2::COLLAPSE_WHITESPACE);
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
+    throw Error(ExitCode::bad_input, "is no XML", {path, document.ErrorLineNum()});
+  ElementPrinter printer;
+  document.Print(&printer);
+  return sha256_of({printer.CStr(), std::size_t(printer.CStrSize() - 1)});
 }
 
 }  // namespace chainreel

@@ -19,4 +19,7 @@ std::string read_xml_text(const std::string& path);
 // The scan alone: depth, number of elements, tags. Throws Error (exit 7, with the line).
 void check_xml_limits(const std::string& text, const std::string& path);
 
+// The same for two texts that differ in nothing but comments and line breaks. Throws Error (exit 3) where it is no XML; `path` is named.
+std::string sha256_of_elements(const std::string& text, const std::string& path);
+
 }  // namespace chainreel

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/data_folder.hpp"
 #include "core/format.hpp"
 #include "core/input_file.hpp"
 #include "scene/yaml_aliases.hpp"
@@ -66,7 +67,9 @@ std::string read_text(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code code;
   if (!fs::exists(path, code)) throw Error(ExitCode::bad_input, "there is no such file", {path});
-  if (!fs::is_regular_file(path, code)) throw Error(ExitCode::bad_input, "is not a file", {path});
+  if (fs::is_directory(path, code) && !shipped_file(path + ".yaml").empty())
+    throw Error(ExitCode::bad_input, "is a folder here: the scene of that name which comes with the program is " + path + ".yaml", {path});
+  if (!fs::is_regular_file(path, code)) throw Error(ExitCode::bad_input, fs::is_directory(path, code) ? "is a folder, not a file" : "is not a file", {path});
   if (fs::file_size(path, code) > kLargestFile)
     throw Error(ExitCode::limit, "is larger than 1 MiB: some 25 lines are enough", {path});
   note_input(path);

@@ -398,6 +398,7 @@ TEST(Audit, HasTheKeysThatOthersRead) {
                      "method",
                      "model",
                      "model_sha256",
+                     "model_elements_sha256",
                      "status",
                      "step",
                      "steps",

@@ -226,6 +226,10 @@ TEST(Compare, SaysWhichCommandsMadeTwoFigures) {
   EXPECT_EQ(report({a, b})["explained"],
             (Json{"command: chainreel ellipse rr.urdf --pose 0,1 -> chainreel ellipse rr.urdf --pose 0,2",
                   "the model file is another one, by its hash"}));
+  const std::string c = picture(folder, "c.png", square_at(10), figure("0,1", R"(3", "model_elements_sha256": "e)"));
+  const std::string d = picture(folder, "d.png", square_at(12), figure("0,1", R"(4", "model_elements_sha256": "e)"));
+  EXPECT_EQ(report({c, d})["explained"], (Json{"the model file has other comments or line breaks, and says the same, by its hash"}));
+  EXPECT_EQ(report({a, d})["explained"], (Json{"the model file is another one, by its hash"})) << "of comments an older file knows nothing";
 }
 
 TEST(Compare, SpoiltMemoriesAreNoTrouble) {

@@ -39,6 +39,9 @@ TEST(ShippedModel, MayBeNamedWithoutItsEndingWhereOnlyModelsAreMeant) {
   }
   EXPECT_EQ(in(folder, {"ellipse", "rrr", "--pose", "0,1,0.5", "-o", "a.png"}).status, 0);
   EXPECT_EQ(in(folder, {"render", "rr"}).status, 3) << "a film takes a scene";
+  fs::create_directory(folder.file("rr_free"));
+  EXPECT_THAT(in(folder, {"check", "rr_free.yaml"}).out, HasSubstr("rr_free"));
+  EXPECT_THAT(in(folder, {"render", "rr_free"}).err, HasSubstr("is a folder here: the scene of that name which comes with the program is rr_free.yaml"));
 }
 
 // A film alone gives its scene back, with the model that came with the program, and says what its bytes depend on.

@@ -30,6 +30,7 @@
 #include "core/format.hpp"
 #include "core/input_file.hpp"
 #include "draw/page/house_style.hpp"
+#include "model/model_source.hpp"
 
 namespace chainreel {
 namespace {
@@ -39,7 +40,7 @@ namespace fs = std::filesystem;
 // Keys of an audit that are no part of what is shown: versions and the model's file, which are told by themselves, where the
 // scene lies, and how the method was chosen that both have.
 bool is_beside(const std::string& key) {
-  constexpr std::array<std::string_view, 5> kKeys = {"versions", "model_sha256", "scene", "auto", "set"};
+  constexpr std::array<std::string_view, 6> kKeys = {"versions", "model_sha256", "model_elements_sha256", "scene", "auto", "set"};
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
@@ -72,24 +73,23 @@ std::vector<std::string> changed_facts(const Json& before, const Json& now) {
   return changes;
 }
 
-std::vector<std::string> model_hashes(const Json& audit) {
-  std::vector<std::string> hashes;
-  if (audit.contains("panels") && audit["panels"].is_array())
-    for (const Json& panel : audit["panels"]) hashes.push_back(word_of(panel, "model_sha256"));
-  if (hashes.empty()) hashes.push_back(word_of(audit, "model_sha256"));
-  return hashes;
+// The audits of all panels; of one the film's own.
+std::vector<Json> panels_of(const Json& audit) {
+  const Json panels = audit.is_object() ? audit.value("panels", Json()) : Json();
+  return panels.is_array() && !panels.empty() ? std::vector<Json>(panels.begin(), panels.end()) : std::vector<Json>{audit};
 }
 
-// What of the models has changed: by the records in the audit beside the film, which comments do not change; where there are none by the hash
-// of the file.
+constexpr const char* kAnotherModel = "the model is another one";
+
+// What of the models has changed: by the records in the audit beside the film, which name it; where there are none by what the film remembers.
 std::vector<std::string> changed_models(const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
-  const std::vector<std::string> before = model_hashes(film.audit), now = model_hashes(today.audit);
-  if (before == now || before.size() != prepared.panels.size()) return {};
+  const std::vector<Json> before = panels_of(film.audit), now = panels_of(today.audit);
+  if (before.size() != now.size() || before.size() != prepared.panels.size()) return {};
   const Json records = beside.is_object() ? beside.value(kMechanisms, Json::array()) : Json::array();
   std::vector<std::string> words;
   for (std::size_t i = 0; i < before.size(); ++i) {
-    if (before[i] == now[i]) continue;
-    std::vector<std::string> own{"the model file has other bytes; whether more than a comment changed, no audit beside the film tells"};
+    if (compare_model_files(before[i], now[i]) != ModelFiles::other) continue;
+    std::vector<std::string> own{kAnotherModel};
     if (i < records.size()) own = explain_models(records[i], mechanism_record(prepared.panels[i]));
     for (const std::string& one : own)
       if (std::find(words.begin(), words.end(), one) == words.end()) words.push_back(one);
@@ -168,17 +168,21 @@ std::vector<std::string> changes_of(const AskedFilm& asked, const CommonOptions&
   return set;
 }
 
+// A name that begins with - would be a flag.
+std::string typed_path(const std::string& path) {
+  return path.starts_with('-') ? "./" + path : path;
+}
+
 constexpr int kDigitsOfInstant = 9;  // of a frame's, of which rounding is no part
 
 // What makes it anew, as a shell's words. What has an audit beside it was made by `render`, a picture of one instant, too; one without by `snapshot`.
 std::vector<std::string> remaking_command(const Today& today, const Json& at) {
-  const auto file = [](const std::string& path) { return path.starts_with('-') ? "./" + path : path; };  // else it would be a flag
   const bool is_picture = find_output_format(today.path, Shows::motion) == nullptr && at.is_number();
-  std::vector<std::string> words{"chainreel", "render", file(today.scene)};
+  std::vector<std::string> words{"chainreel", "render", typed_path(today.scene)};
   if (is_picture && !today.has_audit) words[1] = "snapshot";
   if (is_picture) words.insert(words.end(), {"--at", format_significant(at.get<double>(), kDigitsOfInstant) + "s"});
   for (const std::string& one : today.set) words.insert(words.end(), {"--set", one});
-  words.insert(words.end(), {"-o", file(today.path), "--force"});
+  words.insert(words.end(), {"-o", typed_path(today.path), "--force"});
   return words;
 }
 
@@ -242,10 +246,12 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   if (!origin.is_found) throw Error(ExitCode::bad_input, "shows " + word_of(figure, "model") + ", which is not here, nor in folders around", {path});
   const Json moved = figure_from(figure, origin);
   Today found{.path = path, .scene = word_of(moved, "model")};
-  if (!origin.changed.empty()) found.words.emplace_back("the model file has other bytes; whether more than a comment changed, a figure does not remember");
+  const ModelSource model(found.scene);
+  if (compare_model_files(figure, {{"model_sha256", model.sha256()}, {"model_elements_sha256", model.elements_sha256()}}) == ModelFiles::other)
+    found.words.emplace_back(kAnotherModel);
   found.command = {"chainreel"};
   for (const Json& word : moved.value("arguments", Json::array())) found.command.push_back(word.get<std::string>());
-  found.command.insert(found.command.end(), {"-o", path, "--force"});
+  found.command.insert(found.command.end(), {"-o", typed_path(path), "--force"});
   return found;
 }
 
@@ -289,6 +295,29 @@ void print_today(const Today& one) {
   if (one.words.empty())
     for (const std::string& line : one.facts) std::printf("  %s\n", line.c_str());
   if (!one.is_same() && !one.knows_set) std::printf("  what --set changed when it was made is not known, as no audit lies beside it: give it again\n");
+  if (!one.is_same() && !one.command.empty()) std::printf("  made again by: %s\n", shell_line(one.command).c_str());
+}
+
+// One file is told of with its command. What of many is not as it should be is told in the report: here how many they are, and what makes all anew.
+Problem stale_files(const std::vector<std::string>& asked, const std::vector<Today>& all, const std::string& scene, const CommonOptions& common) {
+  std::vector<const Today*> stale;
+  for (const Today& one : all)
+    if (!one.is_same() && !one.trouble) stale.push_back(&one);
+  if (all.size() == 1) {
+    const Today& one = *stale.front();
+    return {(one.is_gone ? "is gone" : "is not what " + one.scene + " shows today") + ": make it again" + (one.command.empty() ? "" : ", `" + shell_line(one.command) + "`"), {one.path}};
+  }
+  std::vector<std::string> words{"chainreel", "check"};
+  for (const std::string& path : asked) words.push_back(typed_path(path));
+  if (scene.empty())
+    words.emplace_back("--today");
+  else
+    words.insert(words.end(), {"--scene", typed_path(scene)});
+  for (const std::string& set : overrides_of(common)) words.insert(words.end(), {"--set", set});
+  words.emplace_back("--commands");
+  return {counted(stale.size(), "file", "files") + " of " + std::to_string(all.size()) + (stale.size() == 1 ? " is not what its scene shows" : " are not what their scenes show") +
+              " today: `" + shell_line(words) + " | sh` makes " + (stale.size() == 1 ? "it" : "them") + " anew",
+          {}};
 }
 
 // For a shell nothing else is told: what is as it should be has no line.
@@ -346,22 +375,20 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
       else if (!one.is_same() && told.insert(one.command).second)
         print_command(one);
   });
-  std::vector<Problem> troubles, changed;
+  std::vector<Problem> troubles;
   for (const Today& one : all) {
-    if (one.trouble)
-      for (Problem problem : one.trouble->problems()) {
-        // A trouble of a scene concerns each of its films.
-        if (problem.place.file.empty())
-          problem.place.file = one.path;
-        else if (problem.place.file != one.path)
-          problem.message += "; " + one.path + " shows it";
-        troubles.push_back(std::move(problem));
-      }
-    else if (!one.is_same())
-      changed.push_back({(one.is_gone ? "is gone" : "is not what " + one.scene + " shows today") + ": render it again" + (one.command.empty() ? "" : ", `" + shell_line(one.command) + "`"), {one.path}});
+    if (!one.trouble) continue;
+    for (Problem problem : one.trouble->problems()) {
+      // A trouble of a scene concerns each of its films.
+      if (problem.place.file.empty())
+        problem.place.file = one.path;
+      else if (problem.place.file != one.path)
+        problem.message += "; " + one.path + " shows it";
+      troubles.push_back(std::move(problem));
+    }
   }
   const bool is_told = troubles.empty();
-  std::ranges::move(changed, std::back_inserter(troubles));
+  if (std::ranges::any_of(all, [](const Today& one) { return !one.is_same() && !one.trouble; })) troubles.push_back(stale_files(paths, all, scene, common));
   if (!troubles.empty()) throw Error(is_told ? ExitCode::comparison_failed : ExitCode::bad_input, std::move(troubles));
 }
 

@@ -124,6 +124,13 @@ std::vector<std::string> explain_memories(const std::string& before, const std::
   return explain_memories(*old, *now);
 }
 
+ModelFiles compare_model_files(const Json& before, const Json& after) {
+  const auto is_same = [&](const char* key) { return word_of(before, key) == word_of(after, key); };
+  constexpr const char* kElements = "model_elements_sha256";
+  if (is_same("model_sha256")) return ModelFiles::same;
+  return is_same(kElements) && !word_of(before, kElements).empty() ? ModelFiles::other_comments : ModelFiles::other;
+}
+
 std::vector<std::string> explain_memories(const ClipMemory& old, const ClipMemory& now) {
   if (old.figure.is_null() != now.figure.is_null()) return {"one shows a scene, the other is a figure"};
   std::vector<std::string> sentences;
@@ -141,7 +148,10 @@ std::vector<std::string> explain_memories(const ClipMemory& old, const ClipMemor
   const Json& facts = old.figure.is_null() ? old.audit : old.figure;
   const Json& other_facts = now.figure.is_null() ? now.audit : now.figure;
   const auto differs = [&](const char* key) { return facts.value(key, Json()) != other_facts.value(key, Json()); };
-  if (differs("model_sha256")) sentences.push_back(std::string("the model file is another one") + kByHash);
+  if (const ModelFiles models = compare_model_files(facts, other_facts); models == ModelFiles::other)
+    sentences.push_back(std::string("the model file is another one") + kByHash);
+  else if (models == ModelFiles::other_comments)
+    sentences.push_back(std::string("the model file has other comments or line breaks, and says the same") + kByHash);
   // A film's motion and that up to one instant are hashed at other instants.
   if (differs("trajectory_sha256") && !differs("at") && !differs("frames") && !differs("fps"))
     sentences.push_back(std::string("the motion at the frames is another one") + kByHash);

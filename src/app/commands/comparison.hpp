@@ -57,6 +57,10 @@ void write_difference(const CompareOptions& options, const Image& before, const 
 // "1 pixel is", "3 pixels are".
 std::string counted(long count, const char* one, const char* more);
 
+// What audits of two runs, or what two figures remember, tell of their models' files. What an older version wrote knows of no comments.
+enum class ModelFiles { same, other_comments, other };
+ModelFiles compare_model_files(const Json& before, const Json& after);
+
 // How sentences end that tell of a model or motion that is another one.
 inline constexpr const char* kByHash = ", by its hash";
 // What the two files remember differently, of scenes key by key. Nothing where neither remembers anything.

@@ -17,6 +17,7 @@
 #include "core/output_file.hpp"
 #include "draw/film/compose.hpp"
 #include "draw/page/house_style.hpp"
+#include "model/model_source.hpp"
 #include "scene/text/scene_paths.hpp"
 #include "table/data_table.hpp"
 
@@ -184,6 +185,7 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title, co
   if (model.empty()) return memory;
   memory.figure["model"] = path_from(folder_of(command), model);
   memory.figure["model_sha256"] = sha256_of_file(model);
+  memory.figure["model_elements_sha256"] = ModelSource(model).elements_sha256();
   return memory;
 }
 

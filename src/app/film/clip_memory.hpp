@@ -15,8 +15,8 @@ struct ClipMemory {
   std::string description;  // one sentence
   std::string scene;  // YAML of the effective scene; paths as found from its own folder, see clip_origin
   Json audit;         // nothing in it depends on the clock
-  // Null, or in place of a scene {arguments, files, model, model_sha256, poses}; `files` are the indices of those arguments
-  // that are paths, as found from the folder of the first.
+  // Null, or in place of a scene {arguments, files, model, model_sha256, model_elements_sha256, poses}; `files` are the indices of those
+  // arguments that are paths, as found from the folder of the first.
   Json figure = nullptr;
 
   double width_mm = 0;  // of the picture on paper; 0: it has no size of its own. Not read back

@@ -14,6 +14,7 @@ const Keys kRun{
     {"title", "of the scene, or of the panel"},
     {"model", "its file, or its numbers"},
     {"model_sha256", "of the URDF"},
+    {"model_elements_sha256", "of what the URDF says, without comments and line breaks"},
     {"status", "finished, stopped, diverged, .."},
     {"expect", "what the scene expects: finish or diverge"},
     {"trouble", "why it ended early, in words; or null"},

@@ -114,6 +114,7 @@ Json to_json(const RunReport& report) {
   json["title"] = title_of(report);
   json["model"] = scene.model.words();
   json["model_sha256"] = scene.model.sha256();
+  json["model_elements_sha256"] = scene.model.elements_sha256();
   json["status"] = to_string(trajectory.status);
   json["expect"] = to_string(scene.expect);
   json["trouble"] = or_null(trajectory.trouble);
