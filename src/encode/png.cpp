@@ -91,17 +91,18 @@ struct Rows {
 Rows rows_of(const Image& image, bool opaque) {
   const std::size_t width = std::size_t(image.width), height = std::size_t(image.height), channels = opaque ? 3 : 4;
   const std::size_t size = height * (1 + channels * width);
-  Rows rows{std::unique_ptr<std::uint8_t[]>(new std::uint8_t[size]), size};  // all of it is written below
+  Rows rows{std::unique_ptr<std::uint8_t[]>(new std::uint8_t[size + 1]), size};  // all of it is written below, and one byte behind it
   prefer_large_pages(rows.bytes.get(), size);
   std::uint8_t* to = rows.bytes.get();
   const std::uint8_t* from = image.bgra.data();
   for (std::size_t y = 0; y < height; ++y) {
     *to++ = 0;
+    // Four bytes at once; of three channels the next pixel is written over the last one.
     for (std::size_t x = 0; x < width; ++x, from += 4, to += channels) {
-      to[0] = from[2];
-      to[1] = from[1];
-      to[2] = from[0];
-      if (!opaque) to[3] = from[3];
+      std::uint32_t bgra;
+      std::memcpy(&bgra, from, 4);
+      const std::uint32_t rgba = (bgra & 0xff00ff00u) | ((bgra >> 16) & 0xffu) | ((bgra & 0xffu) << 16);
+      std::memcpy(to, &rgba, 4);
     }
   }
   return rows;

@@ -180,6 +180,22 @@ WordPlan::Track& WordPlan::track_of(const MarkWord& word, int frame) {
   return tracks_[nearest];
 }
 
+WordPlan::Ground WordPlan::ground_of(const Rect& box, const std::vector<Obstacle>& near, bool insists, std::size_t& last) {
+  const auto decides = [&](std::size_t o) { return (insists || !near[o].may_yield) && touches(box, near[o]); };
+  const Ground worst = insists ? Ground::poor : Ground::taken;
+  if (last < near.size() && decides(last)) return worst;
+  Ground ground = Ground::free;
+  for (std::size_t o = 0; o < near.size(); ++o) {
+    if (!touches(box, near[o])) continue;
+    if (insists || !near[o].may_yield) {
+      last = o;
+      return worst;
+    }
+    ground = Ground::poor;
+  }
+  return ground;
+}
+
 void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacle>& obstacles) {
   const int frame = int(counts_.size());
   counts_.push_back(int(words.size()));
@@ -190,12 +206,11 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
     for (const Rect& wish : words[i].places) {
       if (now.places.size() == most) break;
       const Rect box = moved_into(area_, wish);
-      Ground ground = norm(center_of(box) - center_of(wish)) <= kLeavesWith ? Ground::free : Ground::taken;
-      for (std::size_t o = 0; ground != Ground::taken && o < near.size(); ++o)
-        if (touches(box, near[o])) ground = near[o].may_yield || now.insists ? Ground::poor : Ground::taken;
+      const bool is_inside = norm(center_of(box) - center_of(wish)) <= kLeavesWith;
+      const Ground ground = is_inside ? ground_of(box, near, now.insists, last_met_[{i, now.places.size()}]) : Ground::taken;
       now.places.push_back(box);
       now.grounds.push_back(ground);
-      if (words[i].leader) now.leaders.push_back(cost_of_leader(*words[i].leader, box, near));
+      if (words[i].leader) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_leader(*words[i].leader, box, near));
       if (words[i].tie && !words[i].leader) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_tie(*words[i].tie, box, near));
     }
     track_of(words[i], frame).push_back(std::move(now));
