@@ -203,6 +203,12 @@ Table read_log(const std::string& path, const ColumnNames& names) {
   return table;
 }
 
+Table read_table(const std::string& path, const ColumnNames& names) {
+  Table table = read_csv(path);
+  tell_units(table, names);
+  return table;
+}
+
 std::string sha256_of(const Table& table) {
   Sha256 hash;
   for (std::size_t i = 0; i < table.names.size(); ++i) {
@@ -333,9 +339,7 @@ TimeTable time_table_of(const Table& table, const std::vector<std::string>& want
 
 TimeTable read_time_table(const std::string& path, const std::vector<std::string>& wanted, const std::vector<std::string>& freedoms,
                           const ColumnNames& names) {
-  Table table = read_csv(path);
-  tell_units(table, names);
-  return time_table_of(table, wanted, freedoms, names);
+  return time_table_of(read_table(path, names), wanted, freedoms, names);
 }
 
 std::string csv_words(const std::string& words) {

@@ -60,6 +60,8 @@ struct ColumnNames {
 // A table whose time is told since its first row, with what `names` says of units as if it did. Throws Error (bad input) as
 // read_csv, and where it tells other units.
 Table read_log(const std::string& path, const ColumnNames& names);
+// Its time as it stands there.
+Table read_table(const std::string& path, const ColumnNames& names);
 
 // A table's columns `t` (rising) and, for each wanted quantity that it has, one a freedom, no more and no fewer: `NAME2` of
 // the second one, `NAME.elbow` of the one that is so called, or what `names` says. In the program's units.

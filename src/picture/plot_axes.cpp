@@ -120,7 +120,20 @@ std::vector<Tick> without_touching(std::vector<Tick> ticks, const Axis& axis, do
   return ticks;
 }
 
+// At values that are given: as many as stand `apart` on the axis' `length`, the first and the last among them where that can be.
+std::vector<Tick> given_ticks(const Axis& axis, double length, double apart) {
+  const std::vector<Tick> all = ticks_of(axis, int(axis.at.size()));
+  const std::size_t gaps = all.size() - 1;
+  std::size_t every = 1;
+  const auto is_close = [&] { return gaps > 0 && std::abs(place_on(axis, all[gaps].value) - place_on(axis, all[0].value)) * length * double(every) / double(gaps) < apart; };
+  while (every < gaps && (is_close() || (gaps % every != 0 && gaps / every < 3))) ++every;
+  std::vector<Tick> ticks;
+  for (std::size_t i = 0; i < all.size(); i += every) ticks.push_back(all[i]);
+  return ticks;
+}
+
 std::vector<Tick> x_ticks(const Axis& axis, double width, const PlotStyle& style) {
+  if (!axis.at.empty()) return given_ticks(axis, width, widest_label(ticks_of(axis, int(axis.at.size())), style) + style.text(size::kTick));
   const double pitch = kPitchX * widest_label(ticks_of(axis, kMostLog), style);
   const double apart = std::max(pitch, 1e-3);
   std::vector<Tick> ticks = enough_ticks(axis, most_labels(axis, width, apart, apart / kPitchX), width, pitch);
@@ -167,6 +180,7 @@ std::vector<Tick> one_number(const Axis& axis) {
 
 std::vector<Tick> y_ticks(const Axis& axis, double height, const PlotStyle& style) {
   const double em = style.text(size::kTick);
+  if (!axis.at.empty()) return given_ticks(axis, height, kLeastPitchY * em);
   std::vector<Tick> ticks = enough_ticks(axis, most_labels(axis, height, kPitchY * em, kLeastPitchY * em), height, kLeastPitchY * em);
   if (axis.scale == Scale::log || stand_apart(ticks, axis, height, kLeastAcross * em)) return ticks;
   ticks = with_ends_alone(ticks_of(axis, kFewestLabels));

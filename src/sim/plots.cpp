@@ -192,30 +192,46 @@ void cut_poles(std::vector<double>& y) {
     if (size_at(k) > kAlone * std::max({*middle, size_at(k - 1), size_at(k + 1)})) y[std::size_t(k)] = NAN;
 }
 
+// Expressions at samples of a run.
+class SampledExpressions {
+ public:
+  SampledExpressions(const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory)
+      : plots_(plots), simulation_(simulation), trajectory_(trajectory), probe_(plots.probe), ws_(simulation.chain), system_(simulation), qdd_(std::size_t(simulation.chain.nv)) {}
+  ~SampledExpressions() { simulation_.torque->leave_pieces(); }
+  SampledExpressions(const SampledExpressions&) = delete;
+  SampledExpressions& operator=(const SampledExpressions&) = delete;
+
+  double at(const Expression& value, int sample) {
+    const double t = trajectory_.t[std::size_t(sample)];
+    const ConstVec q = trajectory_.q_at(sample), qd = trajectory_.qd_at(sample);
+    probe_.set(simulation_.chain, ws_, t, q, qd, plots_.needs_kinematics);
+    if (trajectory_.rows > 0) probe_.set_multipliers(trajectory_.lambda_at(sample));
+    if (plots_.load.are_read()) {
+      hold_as_then(system_, simulation_, trajectory_, t);
+      GroundLoad load = ground_load(system_, ws_, plots_.ground, plots_.foot->height, t, q, qd, qdd_);
+      // Thousands of metres off a foot that is nearly free, it would leave no height for the rest of the curve.
+      if (!presses_near(load, *plots_.foot)) load.cop = NAN;
+      plots_.load.set(probe_, load);
+    }
+    return value.evaluate(probe_.values());
+  }
+
+ private:
+  const PlotSet& plots_;
+  const Simulation& simulation_;
+  const Trajectory& trajectory_;
+  Probe probe_;
+  Workspace ws_;
+  ChainSystem system_;
+  std::vector<double> qdd_;
+};
+
 PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory,
                      int samples) {
-  const Chain& chain = simulation.chain;
-  Probe probe = plots.probe;
-  Workspace ws(chain);
-  ChainSystem system(simulation);
-  std::vector<double> qdd(std::size_t(chain.nv));
+  SampledExpressions expressions(plots, simulation, trajectory);
   PlotCurve curve;
-  for (int k = 0; k < samples; ++k) {
-    const double t = trajectory.t[std::size_t(k)];
-    const ConstVec q = trajectory.q_at(k), qd = trajectory.qd_at(k);
-    probe.set(chain, ws, t, q, qd, plots.needs_kinematics);
-    if (trajectory.rows > 0) probe.set_multipliers(trajectory.lambda_at(k));
-    if (plots.load.are_read()) {
-      hold_as_then(system, simulation, trajectory, t);
-      GroundLoad load = ground_load(system, ws, plots.ground, plots.foot->height, t, q, qd, qdd);
-      // Thousands of metres off a foot that is nearly free, it would leave no height for the rest of the curve.
-      if (!presses_near(load, *plots.foot)) load.cop = NAN;
-      plots.load.set(probe, load);
-    }
-    curve.y.push_back(value.evaluate(probe.values()));
-  }
+  for (int k = 0; k < samples; ++k) curve.y.push_back(expressions.at(value, k));
   cut_poles(curve.y);
-  simulation.torque->leave_pieces();
   PlotCurves plot;
   plot.curves.push_back(std::move(curve));
   return plot;
@@ -303,6 +319,10 @@ std::vector<PlotCurves> plot_curves(const PlotSet& plots, const Simulation& simu
 
 std::vector<PlotCurves> plot_curves(const Simulation& simulation, const Trajectory& trajectory, int samples) {
   return simulation.plots ? plot_curves(*simulation.plots, simulation, trajectory, samples) : std::vector<PlotCurves>();
+}
+
+double plot_value(const Simulation& simulation, std::size_t plot, const Trajectory& trajectory, int sample) {
+  return SampledExpressions(*simulation.plots, simulation, trajectory).at(*simulation.plots->list[plot].value, sample);
 }
 
 }  // namespace chainreel

@@ -84,4 +84,7 @@ std::vector<PlotCurves> plot_curves(const PlotSet& plots, const Simulation& simu
 // The same of simulation.plots.
 std::vector<PlotCurves> plot_curves(const Simulation& simulation, const Trajectory& trajectory, int samples);
 
+// Of one of simulation.plots, an expression, the value at a sample.
+double plot_value(const Simulation& simulation, std::size_t plot, const Trajectory& trajectory, int sample);
+
 }  // namespace chainreel

@@ -290,7 +290,7 @@ TEST(FilmOfToday, AsksTablesToo) {
   const ProgramResult same = asked();
   EXPECT_EQ(same.status, 0) << same.err;
   EXPECT_THAT(same.out, AllOf(HasSubstr("a.csv is what "), HasSubstr("b.npz is what ")));
-  EXPECT_THAT(same.err, HasSubstr("1 file is not asked about, as no audit beside it tells the scene (--scene names it): " + folder.file("docs/c.csv")));
+  EXPECT_THAT(same.err, HasSubstr("1 file is not asked about, as no audit beside it tells the scene: " + folder.file("docs/c.csv")));
   std::string heavier = model;
   const std::string mass = "<mass value=\"";
   // Which command made it, and as exact as for what, nobody knows.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "app/cli/named_pose.hpp"
 #include "app/cli/result.hpp"
 #include "app/cli/shell_word.hpp"
 #include "app/cli/streams.hpp"
@@ -31,6 +32,7 @@
 #include "core/input_file.hpp"
 #include "draw/page/house_style.hpp"
 #include "model/model_source.hpp"
+#include "model/read_chain.hpp"
 
 namespace chainreel {
 namespace {
@@ -144,12 +146,16 @@ Today difference_of(const std::string& path, const Json& beside, const ClipMemor
 
 // A picture is one of `snapshot`'s or a frame of `render`'s, which remember a little else.
 std::vector<ClipMemory> memories_today(const PreparedFilm& film, const std::string& path, const ClipMemory& remembered) {
-  const Json at = remembered.audit.value("at", Json());
+  Json at = remembered.audit.value("at", Json());
   std::vector<ClipMemory> memories{memory_of_film(film)};
   if (find_output_format(path, Shows::motion) != nullptr || !at.is_number()) return memories;
+  const std::string event = word_of(remembered.audit, kAtEvent);
+  if (!event.empty()) at = instants_asked(film, {{0, event, "event " + event}}).front();
   memories.back().audit["at"] = at;
   const Fonts fonts(families_of(film.scene));
   if (at.get<double>() >= 0 && at.get<double>() <= film.scene.duration) memories.push_back(moment_at(film, at.get<double>(), fonts).memory);
+  for (ClipMemory& memory : memories)
+    if (!event.empty()) memory.audit[kAtEvent] = event;
   return memories;
 }
 
@@ -176,11 +182,11 @@ std::string typed_path(const std::string& path) {
 constexpr int kDigitsOfInstant = 9;  // of a frame's, of which rounding is no part
 
 // What makes it anew, as a shell's words. What has an audit beside it was made by `render`, a picture of one instant, too; one without by `snapshot`.
-std::vector<std::string> remaking_command(const Today& today, const Json& at) {
+std::vector<std::string> remaking_command(const Today& today, const Json& at, const std::string& event) {
   const bool is_picture = find_output_format(today.path, Shows::motion) == nullptr && at.is_number();
   std::vector<std::string> words{"chainreel", "render", typed_path(today.scene)};
   if (is_picture && !today.has_audit) words[1] = "snapshot";
-  if (is_picture) words.insert(words.end(), {"--at", format_significant(at.get<double>(), kDigitsOfInstant) + "s"});
+  if (is_picture) words.insert(words.end(), {"--at", event.empty() ? format_significant(at.get<double>(), kDigitsOfInstant) + "s" : "event " + event});
   for (const std::string& one : today.set) words.insert(words.end(), {"--set", one});
   words.insert(words.end(), {"-o", typed_path(today.path), "--force"});
   return words;
@@ -190,12 +196,12 @@ PreparedFilm film_behind(const AskedFilm& asked, const std::string& scene, const
   return load_film(scene.empty() ? scene_behind(asked) : scene, changes_of(asked, common), true, common.quiet);
 }
 
-// `at`: of a picture, its instant.
-void tell_remaking(Today& today, const AskedFilm& asked, const CommonOptions& common, const Json& at) {
+// `at`: of a picture, its instant, or the event that it shows.
+void tell_remaking(Today& today, const AskedFilm& asked, const CommonOptions& common, const Json& at, const std::string& event = "") {
   today.has_audit = asked.audit.json.is_object();
   today.knows_set = set_of(asked).is_array();
   today.set = changes_of(asked, common);
-  today.command = remaking_command(today, at);
+  today.command = remaking_command(today, at, event);
 }
 
 // The table of a panel, f.2.csv, is made with all others of its page, by -o f.csv.
@@ -237,7 +243,23 @@ Today gone_of_today(const AskedFilm& asked, const std::string& scene, const Comm
   return found;
 }
 
-// A figure of a model at poses depends on its file alone.
+// Poses that have a name beside the model, and are others now.
+std::vector<std::string> changed_poses(const Json& figure, const std::string& model) {
+  const Json poses = figure.value("named_poses", Json::object());
+  std::vector<std::string> words;
+  if (poses.empty() || !poses.is_object()) return words;
+  const Chain chain = read_chain(model);
+  for (const auto& [name, before] : poses.items()) {
+    const std::string now = named_pose_text(chain, model, name, "pose");
+    if (now == name)
+      words.push_back("the pose " + name + " stands in no .srdf beside the model any more");
+    else if (before != Json(now))
+      words.push_back("pose " + name + ": " + (before.is_string() ? before.get<std::string>() : "another one") + " -> " + now);
+  }
+  return words;
+}
+
+// A figure of a model at poses depends on its file, and on one of poses, alone.
 Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   const Json& figure = remembered.figure;
   if (word_of(figure, "model_sha256").empty())
@@ -249,6 +271,7 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   const ModelSource model(found.scene);
   if (compare_model_files(figure, {{"model_sha256", model.sha256()}, {"model_elements_sha256", model.elements_sha256()}}) == ModelFiles::other)
     found.words.emplace_back(kAnotherModel);
+  for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
   found.command = {"chainreel"};
   for (const Json& word : moved.value("arguments", Json::array())) found.command.push_back(word.get<std::string>());
   found.command.insert(found.command.end(), {"-o", typed_path(path), "--force"});
@@ -269,7 +292,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
   for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
-  tell_remaking(nearest, asked, common, remembered.audit.value("at", Json()));
+  tell_remaking(nearest, asked, common, remembered.audit.value("at", Json()), word_of(remembered.audit, kAtEvent));
   return nearest;
 }
 
@@ -277,7 +300,7 @@ void tell_passed_over(const std::vector<std::string>& files) {
   constexpr std::size_t kMostNames = 8;
   if (files.empty()) return;
   const std::vector<std::string> named(files.begin(), files.begin() + std::ptrdiff_t(std::min(files.size(), kMostNames)));
-  std::fprintf(stderr, "note: %s not asked about, as no audit beside %s the scene (--scene names it): %s%s\n",
+  std::fprintf(stderr, "note: %s not asked about, as no audit beside %s the scene: %s%s (--scene names that of a film or picture; tables of `simulate` and `sweep`, sheets and charts cannot be asked)\n",
                counted(files.size(), "file is", "files are").c_str(), files.size() == 1 ? "it tells" : "them tells", joined(named).c_str(),
                files.size() > kMostNames ? ", .." : "");
 }

@@ -61,6 +61,7 @@ struct EllipseOptions {
 struct EllipseJob {
   Motion motion;
   PoseFigureOptions figure;
+  NamedPoses named_poses{};  // those of --pose
 };
 
 constexpr double kSlide = 9.0 / 16;   // height of a page, of its width
@@ -200,7 +201,11 @@ EllipseJob job_of_model(const EllipseOptions& options) {
   Motion& motion = job.motion;
   require_end_effector(motion.chain);
   PoseSources sources = options.sources;
-  for (std::string& pose : sources.poses) pose = named_pose_text(motion.chain, model.scene.model.path, pose, "--pose");
+  for (std::string& pose : sources.poses) {
+    const std::string numbers = named_pose_text(motion.chain, model.scene.model.path, pose, "--pose");
+    if (numbers != pose) job.named_poses[pose] = numbers;
+    pose = numbers;
+  }
   motion.poses = gather_poses(motion.chain, sources);
   motion.ellipse = model.scene.ellipse;
   set_look(job.figure, model, motion.chain);
@@ -260,6 +265,7 @@ void run_ellipse(const EllipseOptions& options) {
   if (!options.joint_space && is_drawn) tell_missing_masses(job, options, tip, fonts);
   ClipMemory memory =
       memory_of_figure(*options.command, figure.title, is_model_file(options.model) ? options.model : "", poses.q);
+  remember_named_poses(memory, job.named_poses);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   const auto report = [&] {
     if (options.joint_space) return Json{{"poses", joint_space_json(chain, poses, joints)}};

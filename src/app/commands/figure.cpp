@@ -189,6 +189,10 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title, co
   return memory;
 }
 
+void remember_named_poses(ClipMemory& memory, const NamedPoses& poses) {
+  if (!poses.empty()) memory.figure["named_poses"] = poses;
+}
+
 std::vector<const Method*> parse_methods(const std::string& text, const std::string& option) {
   std::vector<const Method*> chosen;
   if (text.empty())

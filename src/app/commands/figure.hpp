@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,9 @@ class FigureFiles {
 ClipMemory memory_of_figure(const Command& command, const std::string& title);
 ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
                             const std::vector<std::vector<double>>& poses);
+// What poses were that have a name beside the model: "ready" and "joint1=0.1,joint2=0". In its figure as `named_poses`.
+using NamedPoses = std::map<std::string, std::string>;
+void remember_named_poses(ClipMemory& memory, const NamedPoses& poses);
 
 // "rk4,taylor": rows of the registry; "" is all of them. Throws Error (usage) naming the option.
 std::vector<const Method*> parse_methods(const std::string& text, const std::string& option = "--methods");

@@ -67,13 +67,13 @@ Trajectory run_scene(const PreparedFilm& film, const PreparedScene& prepared, co
   return simulate_audited(prepared.simulation, times, stop);
 }
 
-// Columns of the table, none for the usual ones, and those of which the peaks are asked for.
+// Columns of the table, none for the usual ones, and what peaks are asked of.
 struct Wanted {
-  std::vector<MotionColumn> columns, peaks;
+  std::vector<MotionColumn> columns;
+  PeaksAsked peaks;
 };
 
-// `peaks`: of which columns; none asks for none.
-std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const std::vector<MotionColumn>& peaks) {
+std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const PeaksAsked& peaks) {
   if (peaks.empty()) return {};
   const PeaksOfRun found = simulate_for_peaks(simulation, peaks, [](double) { return interrupted(); });
   throw_if_interrupted();
@@ -144,7 +144,7 @@ void run_simulate(const SimulateOptions& options) {
     throw Error(ExitCode::usage, "-o - gives the table to standard output, where --peaks has no room: write the table to a file");
   for (const std::size_t i : chosen) {
     require_columns(film.panels[i].simulation, wanted.columns, "--columns");
-    require_columns(film.panels[i].simulation, wanted.peaks, "--peaks");
+    require_peaks(film.panels[i].simulation, wanted.peaks, "--peaks");
   }
   Json reports = Json::array();
   for (const std::size_t i : chosen) {

@@ -200,6 +200,7 @@ void snapshot_scene(const SnapshotOptions& options) {
   std::vector<Json> numbers;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     Moment shown = moments.moment(instants[i]);
+    if (!asked[i].event.empty()) shown.memory.audit[kAtEvent] = asked[i].event;
     if (options.paper.is_given()) shown.memory.width_mm = options.paper.width_mm;
     if (i == 0) tell_warnings(shown.warnings);
     if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
@@ -213,6 +214,7 @@ void snapshot_scene(const SnapshotOptions& options) {
 struct PosePicture {
   std::string name;
   std::vector<std::vector<double>> poses;
+  NamedPoses named{};
 };
 
 std::vector<PosePicture> pose_pictures(const Chain& chain, const SnapshotOptions& options, bool is_folder) {
@@ -229,6 +231,7 @@ std::vector<PosePicture> pose_pictures(const Chain& chain, const SnapshotOptions
           {file_name_of(own_name.empty() ? stem + "_" + std::to_string(pictures.size() + 1) : own_name),
            {}});
     pictures.back().poses.push_back(q);
+    if (numbers != named.text) pictures.back().named[named.text] = numbers;
   }
   if (pictures.empty()) pictures.push_back({file_name_of(stem), {zero_configuration(chain)}});
   return pictures;
@@ -252,6 +255,7 @@ ClipMemory memory_of_pose(const SnapshotOptions& options, const Chain& chain,
       words.erase(words.size() - 1);
   }
   memory.figure["arguments"] = words;
+  remember_named_poses(memory, shown[i].named);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   return memory;
 }

@@ -53,6 +53,7 @@ struct SweepOptions {
   std::string scene;
   std::vector<std::string> over, outputs, each;
   std::string at = "0", shard, peaks, map;
+  std::vector<std::string> last;
   FigureOptions figure;  // of maps
   int jobs = 0;
   CommonOptions common;
@@ -301,8 +302,10 @@ void check_outputs(const SweepOptions& options) {
   if (tables > 1 && !options.shard.empty()) throw Error(ExitCode::usage, "-o: a share of a table is one .csv, and is joined before it becomes others");
   refuse_twice(options.outputs);
   if (maps == 0 && !options.map.empty()) throw Error(ExitCode::usage, "--map says what a map shows: name one with -o MAP.png");
-  if (tables + maps == 0 && !options.peaks.empty())
-    throw Error(ExitCode::usage, "--peaks says what a table holds: name one with -o TABLE.csv");
+  if (tables + maps == 0 && (!options.peaks.empty() || !options.last.empty()))
+    throw Error(ExitCode::usage, std::string(options.peaks.empty() ? "--last" : "--peaks") + " says what a table holds: name one with -o TABLE.csv");
+  for (std::size_t i = 0; i < options.last.size(); ++i)
+    if (std::ranges::count(options.last, options.last[i]) > 1) throw Error(ExitCode::usage, "--last " + options.last[i] + " is given twice");
   if (folders == 0 && !options.each.empty())
     throw Error(ExitCode::usage, "--each says what runs become in a folder: name it with -o FOLDER/");
 }
@@ -327,7 +330,7 @@ std::vector<std::string> maps_of(SweepOptions& options) {
 void draw_maps(const SweepOptions& options, const Grid& grid, const std::vector<std::string>& maps, const std::string& table) {
   const Scene scene = read_scene(options.scene, overrides_of(options.common));
   const Fonts fonts(families_of(scene));
-  const Picture picture = stability_map(sweep_map(grid, scene, table, options.map), chart_look(options.figure, scene, fonts));
+  const Picture picture = stability_map(sweep_map(grid, scene, table, options.last, options.map), chart_look(options.figure, scene, fonts));
   for (const std::string& path : maps) write_figure(options.figure, picture, fonts, path, options.common.force);
 }
 
@@ -350,7 +353,7 @@ void run_sweep(SweepOptions options) {
     }
   }
   const int threads = options.jobs > 0 ? options.jobs : usable_cores();
-  const std::vector<MotionColumn> peaks = options.peaks.empty() ? std::vector<MotionColumn>{} : parse_peaks(options.peaks, "--peaks");
+  const PeaksAsked peaks = options.peaks.empty() ? PeaksAsked{} : parse_peaks(options.peaks, "--peaks");
   Json report{{"runs", runs.behind - runs.first}, {"outputs", Json::array()}};
   std::vector<std::string> written;
   SweepOutcome worst;
@@ -378,8 +381,8 @@ void run_sweep(SweepOptions options) {
   // Tables first: they depend on the files that were read up to there, which must be the same for all shares.
   if (std::vector<std::string> tables = tables_of(options.outputs); !tables.empty()) {
     tables.front() = with_suffix(tables.front(), suffix);
-    SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, tables, options.common.force, options.common.quiet, peaks};
-    if (!maps.empty()) job.looks_at_names = [&](const std::vector<std::string>& names) { require_map_column(names, grid, options.map); };
+    SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, tables, options.common.force, options.common.quiet, peaks, options.last};
+    if (!maps.empty()) job.looks_at_names = [&](const std::vector<std::string>& names) { require_map_column(names, grid, options.last, options.map); };
     const SweepOutcome outcome = write_sweep_table(job);
     for (const std::string& path : tables) tell(path, outcome);
     if (!maps.empty()) {
@@ -413,21 +416,24 @@ void add_sweep_command(CommandLine& app) {
   command->add_option("--peaks", options->peaks,
                       "qd,tau,energy_error,..: of these the largest of each run, with its sign (the energy's error without it), as columns of the "
                       "table; names as of `simulate --columns`");
-  command->add_option("--map", options->map, "the column that a map shows (default the first of --peaks)");
+  command->add_repeatable("--last", options->last,
+                          "an expression whose value at the end of each run is a column of the table, like 'x_G' or 'sqrt((x_G - 0.9)^2 + (y_G - 0.3)^2)'; repeatable");
+  command->add_option("--map", options->map, "the column that a map shows (default the first of --peaks, else of --last)");
   options->figure.command = command;
   command->add_option("--at", options->at, "instant that pictures show, in seconds (default 0)");
   command->add_option("--shard", options->shard, "an equal share of the runs, like 3/8; slurm: that of the array job's task");
   command->add_option("--jobs", options->jobs, "runs beside one another (default: all cores)").range(1, 256);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("A table has a row a run: its last state and the energy there, the instants of its events, and what --peaks asks for; `trouble` says\n"
+  command->footer("A table has a row a run: its last state and the energy there, what --peaks and --last ask for, and the instants of its events; `trouble` says\n"
                   "why it failed, or that its energy is off by more than 1 % of what it moved. Tables are computed by\n"
                   "dop853 with tolerance 1e-10 where a scene leaves its method to auto, which asks what a page shows; films and pictures\n"
                   "by what auto takes.\n"
                   "A .csv table begins with three lines of facts, `# ..`: pandas.read_csv(file, comment='#'), or numpy.genfromtxt(file,\n"
                   "delimiter=',', names=True, skip_header=3); .npz and .json have none.\n"
                   "Example: chainreel sweep rr_free --over start.q.1=0:90deg:4 --over gravity.2=-9.81,-1.62 --peaks qd,energy_error -o out/grid.csv\n"
-                  "         chainreel sweep rr_free --over start.q.1=0:90deg:10 --over payload.mass=0:5:6 --peaks qd --map qd2 -o out/map.png");
+                  "         chainreel sweep rr_free --over start.q.1=0:90deg:10 --over payload.mass=0:5:6 --peaks qd --map qd2 -o out/map.png\n"
+                  "         chainreel sweep pp_spring --over parameters.k=20:220:6 --over duration=1s,2s --last 'y_G - 0.3' -o out/last.png");
   command->callback([options] { run_sweep(*options); });
 }
 

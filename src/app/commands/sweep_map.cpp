@@ -33,7 +33,9 @@ std::string plain_name(const std::string& column) {
   return name.starts_with(kPeak) ? name.substr(kPeak.size()) : name;
 }
 
-std::size_t find_column(const std::vector<std::string>& header, const Grid& grid, const std::string& wanted) {
+std::size_t find_column(const std::vector<std::string>& header, const Grid& grid, const std::vector<std::string>& last, std::string wanted) {
+  const bool has_peaks = std::ranges::any_of(header, [](const std::string& name) { return name.starts_with(kPeak); });
+  if (wanted.empty() && !has_peaks && !last.empty()) wanted = last.front();
   // Behind the run and its keys all are numbers but a few.
   std::vector<std::string> names;
   std::size_t found = header.size();
@@ -48,13 +50,13 @@ std::size_t find_column(const std::vector<std::string>& header, const Grid& grid
   }
   if (found < header.size()) return found;
   if (wanted.empty())
-    throw Error(ExitCode::usage, "a map shows one column of the table: name it with --map, of " + joined(names) + ", or give --peaks, whose first it shows otherwise");
+    throw Error(ExitCode::usage, "a map shows one column of the table: name it with --map, of " + joined(names) + ", or give --peaks or --last, whose first it shows otherwise");
   std::vector<std::string> of_joints;
   for (const std::string& name : names)
     if (const std::string plain = plain_name(name); without_number(plain) == wanted && std::ranges::count(of_joints, plain) == 0)
       of_joints.push_back(plain);
   if (!of_joints.empty()) throw Error(ExitCode::usage, "--map " + wanted + ": a map shows one of them: " + joined(of_joints));
-  throw Error(ExitCode::usage, "--map " + wanted + ": the table has no such column:" + did_you_mean(wanted, names) + " It has " + joined(names));
+  throw Error(ExitCode::usage, "--map " + wanted + ": the table has no such column:" + did_you_mean(wanted, names) + " there are " + joined(names) + "; --last adds the value of an expression at the end");
 }
 
 // "largest $|qd1|$ [rad/s]".
@@ -100,11 +102,11 @@ void require_map_grid(const Grid& grid) {
   for (const Sweep& axis : grid.axes()) require_map_axis(axis, "--over " + axis.key);
 }
 
-void require_map_column(const std::vector<std::string>& names, const Grid& grid, const std::string& wanted) {
-  find_column(names, grid, wanted);
+void require_map_column(const std::vector<std::string>& names, const Grid& grid, const std::vector<std::string>& last, const std::string& wanted) {
+  find_column(names, grid, last, wanted);
 }
 
-StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& path, const std::string& wanted) {
+StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& path, const std::vector<std::string>& last, const std::string& wanted) {
   const Sweep &x = grid.axes()[0], &y = grid.axes()[1];
   StabilityMap map;
   map.nx = int(x.values.size());
@@ -120,7 +122,7 @@ StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& 
     const std::vector<std::string> fields = csv_fields(line, place);
     if (header.empty()) {
       header = fields;
-      column = find_column(header, grid, wanted);
+      column = find_column(header, grid, last, wanted);
       good = std::size_t(std::ranges::find(header, kGood) - header.begin());
       continue;
     }
@@ -143,9 +145,14 @@ StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& 
   map.y = axis_of(y);
   map.is_linear = true;
   map.error_title = title_of_column(header[column]);
+  if (std::ranges::count(last, header[column]) > 0) {
+    constexpr std::size_t kShort = 12;  // characters: longer ones would take the map's room
+    map.error_title = header[column].size() <= kShort ? header[column] + " at the end" : "at the end";
+    if (header[column].size() > kShort) map.subtitle += "; colour: " + header[column];
+  }
   map.hatched = "no value";
   map.footer = "Each cell is a run; the table beside has its numbers" +
-               (doubtful == 0 ? "." : ". Of " + std::to_string(doubtful) + " it is doubtful: its column `trouble` says why.");
+               (doubtful == 0 ? "." : doubtful == 1 ? ". One, with a dot, is doubtful: its column `trouble` says why." : ". " + std::to_string(doubtful) + ", with dots, are doubtful: their column `trouble` says why.");
   return map;
 }
 

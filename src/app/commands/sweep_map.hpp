@@ -17,10 +17,11 @@ bool is_map_path(const std::string& path);
 void require_map_grid(const Grid& grid);
 
 // Throws Error (usage) where `wanted` means no column of a table with these names, as `sweep_map` takes it.
-void require_map_column(const std::vector<std::string>& names, const Grid& grid, const std::string& wanted);
+void require_map_column(const std::vector<std::string>& names, const Grid& grid, const std::vector<std::string>& last, const std::string& wanted);
 
-// Of the table at `path`, a row each run of the grid. `wanted`: a column's name with or without its peak_, or "": the first of --peaks.
+// Of the table at `path`, a row each run of the grid. `wanted`: a column's name with or without its peak_, or "": the first of --peaks, else of
+// `last`, the expressions that stand in it.
 // Runs that failed, or that have no such number, as of an event that did not come, are hatched. Throws Error (usage) where no column is meant.
-StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& path, const std::string& wanted);
+StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& path, const std::vector<std::string>& last, const std::string& wanted);
 
 }  // namespace chainreel

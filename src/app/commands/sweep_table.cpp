@@ -28,6 +28,7 @@
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
 #include "sim/doubts.hpp"
+#include "sim/plots.hpp"
 #include "sim/unstable_rest.hpp"
 #include "sim/workload.hpp"
 #include "table/data_table.hpp"
@@ -57,8 +58,10 @@ std::string first_words(const Error& error) {
 }
 
 // With `auto` all runs take the same method, as those of `fall` do.
-Scene scene_of(SceneFile& file, const std::vector<std::string>& overrides) {
+Scene scene_of(SceneFile& file, const std::vector<std::string>& overrides, const std::vector<std::string>& last) {
   Scene scene = file.read(overrides);
+  // Behind the plots of its own.
+  for (const std::string& expression : last) scene.plot.push_back({expression, "", {"--last '" + expression + "'"}});
   require_single_run(scene);
   if (scene.chooses_method()) {
     scene.method = "dop853";
@@ -80,7 +83,7 @@ FirstRun first_good_run(const SweepTableJob& job) {
   for (std::size_t run = 0; run < count; ++run) {
     throw_if_interrupted();
     try {
-      Scene scene = scene_of(file, settings_of(job, run));
+      Scene scene = scene_of(file, settings_of(job, run), job.last);
       Simulation simulation = prepare(scene, false);
       return {std::move(scene), std::move(simulation)};
     } catch (const Error& error) {
@@ -90,7 +93,7 @@ FirstRun first_good_run(const SweepTableJob& job) {
     // What the scene is refused for without any of the values, too, none of them brings about.
     if (run == 0) {
       try {
-        Scene scene = scene_of(file, job.overrides);
+        Scene scene = scene_of(file, job.overrides, job.last);
         prepare(scene, false);
       } catch (const Error& error) {
         if (first_words(error) == first_words(*first)) throw Error(*first);
@@ -140,7 +143,7 @@ class RowMaker {
     const std::vector<std::size_t> at = job_.grid.places(run);
     for (std::size_t i = 0; i < at.size(); ++i) row += "," + cells_[i][at[i]];
     try {
-      Scene scene = scene_of(file_, settings_of(job_, run));
+      Scene scene = scene_of(file_, settings_of(job_, run), job_.last);
       const Simulation simulation = prepare(scene, false, last_);
       if (state_names(simulation.chain) != states_ || scene.events.size() != events_)
         return row + failed_row("its states or events are other ones than the first run's");
@@ -193,6 +196,10 @@ class RowMaker {
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
     row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) + "," + energy_at_end(chain, run) : no_state() + ",");
     for (const Peak& peak : peaks) row += "," + format_shortest(peak.value);
+    for (std::size_t i = 0; i < job_.last.size(); ++i) {
+      const std::size_t plot = simulation.plots->list.size() - job_.last.size() + i;
+      row += "," + (run.size() > 0 ? format_shortest(plot_value(simulation, plot, run, run.size() - 1)) : "");
+    }
     std::vector<std::string> first(events_);
     for (int k = run.events.size() - 1; k >= 0; --k)
       first[std::size_t(run.events.event[std::size_t(k)])] = format_shortest(run.events.t[std::size_t(k)]);
@@ -200,7 +207,7 @@ class RowMaker {
     return row + "," + (trouble.empty() ? "" : csv_words(trouble));
   }
   std::string failed_row(const std::string& why) const {
-    return ",0,refused,,," + no_state() + "," + std::string(peaks_ + events_, ',') + "," + csv_words(why);
+    return ",0,refused,,," + no_state() + "," + std::string(peaks_ + job_.last.size() + events_, ',') + "," + csv_words(why);
   }
   static std::string energy_at_end(const Chain& chain, const Trajectory& run) {
     Workspace ws(chain);
@@ -247,7 +254,9 @@ std::string key_of(const SweepTableJob& job) {
   if (const std::string* text = standard_input_at(job.scene)) hashes.push_back(sha256_of(*text));
   std::sort(hashes.begin(), hashes.end());
   json["files"] = hashes;
-  for (const MotionColumn column : job.peaks) json["peaks"].push_back(to_string(column));
+  for (const MotionColumn column : job.peaks.columns) json["peaks"].push_back(to_string(column));
+  for (const std::string& single : job.peaks.single) json["peaks"].push_back(single);
+  for (const std::string& expression : job.last) json["last"].push_back(expression);
   return sha256_of(json.dump());
 }
 
@@ -265,6 +274,7 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& c
   head += ",good,status,end_time [s],ended_by," + state_names(chain, one_model ? NamesOfState::with_units : NamesOfState::plain) +
           ",energy [J]";
   for (const std::string& peak : peaks) head += ",peak_" + (one_model ? peak : ColumnName(peak).name);
+  for (const std::string& expression : job.last) head += "," + (expression.find(',') == std::string::npos ? expression : csv_words(expression));
   for (const EventEntry& event : first.events) head += "," + csv_words(event.title() + " [s]");
   return head + ",trouble\n";
 }
@@ -316,7 +326,9 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   require_possible(simulation, double(job.runs.behind - job.runs.first));
   for (const Sweep& axis : job.grid.axes()) require_read(axis.key, first, "--over");
   const std::string states = state_names(simulation.chain);
-  require_columns(simulation, job.peaks, "--peaks");
+  require_peaks(simulation, job.peaks, "--peaks");
+  for (std::size_t i = simulation.plots == nullptr ? 0 : simulation.plots->list.size() - job.last.size(), k = 0; k < job.last.size(); ++i, ++k)
+    if (!simulation.plots->list[i].value) throw Error(ExitCode::usage, "--last " + job.last[k] + ": a plot of that name has several curves: write an expression, like x_G or q1");
   const std::vector<std::string> peaks = names_of_peaks(simulation, job.peaks);
   for (const std::string& doubt : first.doubts) tell_warnings({first.name + ": " + doubt});
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/commands/sweep_rows.hpp"
-#include "app/report/motion_table.hpp"
+#include "app/report/peaks.hpp"
 #include "app/works/part.hpp"
 #include "scene/run/grid.hpp"
 
@@ -21,7 +21,8 @@ struct SweepTableJob {
   std::vector<std::string> paths;  // one at least; the first grows as rows come, the others are made of it
   bool overwrite = false;
   bool quiet = false;
-  std::vector<MotionColumn> peaks;  // see app/report/peaks
+  PeaksAsked peaks{};
+  std::vector<std::string> last{};  // expressions whose value at the end of each run is asked for
   std::function<void(const std::vector<std::string>&)> looks_at_names = nullptr;  // of the columns, before anything is computed; may throw
 };
 

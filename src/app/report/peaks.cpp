@@ -24,14 +24,16 @@ DataTable table_of(const Simulation& simulation, const Trajectory& run, MotionCo
 
 }  // namespace
 
-std::vector<MotionColumn> parse_peaks(const std::string& text, const std::string& option) {
-  std::vector<MotionColumn> columns = parse_columns(text, option);
-  if (std::find(columns.begin(), columns.end(), MotionColumn::t) != columns.end())
-    throw Error(ExitCode::usage, option + ": t has no peak; name what goes up and down, like qd,tau,energy_error");
-  return columns;
+namespace {
+
+// "qd" of "qd2"; "" of what is no number of a column.
+std::string stem_of(const std::string& word) {
+  const std::string stem = word.substr(0, word.find_last_not_of("0123456789") + 1);
+  return stem != word && value_named<MotionColumn>(stem) && !value_named<MotionColumn>(word) ? stem : "";
 }
 
-std::vector<std::string> names_of_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns) {
+// One a number of those columns.
+std::vector<std::string> names_in(const Simulation& simulation, const std::vector<MotionColumn>& columns) {
   Trajectory none;
   none.nq = simulation.chain.nq, none.nv = simulation.chain.nv;
   none.rows = int(multiplier_columns(simulation.chain, simulation.constraints.list).size());
@@ -39,6 +41,51 @@ std::vector<std::string> names_of_peaks(const Simulation& simulation, const std:
   for (const MotionColumn column : columns)
     for (const DataArray& array : table_of(simulation, none, column).arrays)
       for (const std::string& name : array.columns) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+bool PeaksAsked::hold(const std::string& name) const {
+  const std::string plain = ColumnName(name).name, stem = stem_of(plain);
+  const auto is_of_column = [&](const std::string& one) { return stem_of(one) == stem; };
+  return stem.empty() || std::ranges::none_of(single, is_of_column) || std::ranges::count(single, plain) > 0;
+}
+
+PeaksAsked parse_peaks(const std::string& text, const std::string& option) {
+  PeaksAsked asked;
+  std::string columns;
+  std::vector<std::string> stems;
+  for (const std::string& word : separated(text, ',')) {
+    const std::string stem = stem_of(word);
+    if (stem.empty()) {
+      columns += (columns.empty() ? "" : ",") + word;
+      continue;
+    }
+    if (std::ranges::count(asked.single, word) > 0) throw Error(ExitCode::usage, option + " names " + word + " twice");
+    asked.single.push_back(word);
+    if (std::ranges::count(stems, stem) == 0) columns += (columns.empty() ? "" : ",") + stem;
+    stems.push_back(stem);
+  }
+  for (const std::string& word : separated(text, ','))
+    if (std::ranges::count(stems, word) > 0) throw Error(ExitCode::usage, option + ": " + word + " holds what it names besides: leave one out");
+  asked.columns = parse_columns(columns, option);
+  if (std::find(asked.columns.begin(), asked.columns.end(), MotionColumn::t) != asked.columns.end())
+    throw Error(ExitCode::usage, option + ": t has no peak; name what goes up and down, like qd,tau,energy_error");
+  return asked;
+}
+
+void require_peaks(const Simulation& simulation, const PeaksAsked& asked, const std::string& option) {
+  require_columns(simulation, asked.columns, option);
+  std::vector<std::string> plain;
+  for (const std::string& name : names_in(simulation, asked.columns)) plain.push_back(ColumnName(name).name);
+  for (const std::string& one : asked.single)
+    if (std::ranges::count(plain, one) == 0) throw Error(ExitCode::usage, option + ": the model has no " + one + "; it has " + joined(plain));
+}
+
+std::vector<std::string> names_of_peaks(const Simulation& simulation, const PeaksAsked& asked) {
+  std::vector<std::string> names = names_in(simulation, asked.columns);
+  std::erase_if(names, [&](const std::string& name) { return !asked.hold(name); });
   return names;
 }
 
@@ -111,7 +158,8 @@ std::vector<double> look_at(const Simulation& simulation, const Trajectory& run,
 
 }  // namespace
 
-PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns, const StopRequest& stop) {
+PeaksOfRun simulate_for_peaks(const Simulation& simulation, const PeaksAsked& asked, const StopRequest& stop) {
+  const std::vector<MotionColumn>& columns = asked.columns;
   std::vector<double> times;
   for (int k = 0; k <= kSamples; ++k) times.push_back(simulation.duration * k / kSamples);
   for (double share = 1e-10; share < 1.0 / kSamples; share *= 10) times.push_back(simulation.duration * share);  // what jumps at the start
@@ -124,7 +172,9 @@ PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<Mo
   const bool asks_for_more = columns.size() > std::size_t(asks_for_energy);
   if (asks_for_more && is_complete(found.run.status))
     look_closer(simulation, found.run, kLooks, [&](const Trajectory& seen) { return look_at(simulation, seen, columns, peaks); }, stop);
-  for (const Farthest& one : peaks) found.peaks.push_back({one.value(), one.t()});
+  const std::vector<std::string> names = names_in(simulation, columns);
+  for (std::size_t i = 0; i < peaks.size(); ++i)
+    if (i >= names.size() || asked.hold(names[i])) found.peaks.push_back({peaks[i].value(), peaks[i].t()});
   return found;
 }
 

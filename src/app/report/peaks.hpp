@@ -10,16 +10,28 @@
 
 namespace chainreel {
 
-// "qd,tau,energy_error", as parse_columns reads them; of t there is no peak. Throws Error (usage) naming the option.
-std::vector<MotionColumn> parse_peaks(const std::string& text, const std::string& option);
+// Of which numbers peaks are asked for: of whole columns, or of one number of one.
+struct PeaksAsked {
+  std::vector<MotionColumn> columns;
+  std::vector<std::string> single{};  // "qd2": of its column this one alone
+
+  bool empty() const { return columns.empty(); }
+  // Whether they are asked of this one, "qd2 [rad/s]".
+  bool hold(const std::string& name) const;
+};
+
+// "qd,tau2,energy_error", as parse_columns reads them; of t there is no peak. Throws Error (usage) naming the option.
+PeaksAsked parse_peaks(const std::string& text, const std::string& option);
+// Throws Error (usage) where the run has no such numbers.
+void require_peaks(const Simulation& simulation, const PeaksAsked& asked, const std::string& option);
 
 // Of a number the value that is farthest from zero, with its sign, and when.
 struct Peak {
   double value = 0, t = 0;
 };
 
-// What has peaks, one a number of those columns: "qd2 [rad/s]".
-std::vector<std::string> names_of_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns);
+// What has peaks, one a number that is asked for: "qd2 [rad/s]".
+std::vector<std::string> names_of_peaks(const Simulation& simulation, const PeaksAsked& asked);
 
 // A run, and its peaks up to where it ended, in the order of their names: looked for at 2000 instants and all steps, within steps, on both
 // sides of where torques jump, and ever closer about those that were found, and all but as far. That of the energy's error is the largest at the ends of steps, without its sign.
@@ -27,7 +39,7 @@ struct PeaksOfRun {
   Trajectory run;
   std::vector<Peak> peaks;
 };
-PeaksOfRun simulate_for_peaks(const Simulation& simulation, const std::vector<MotionColumn>& columns, const StopRequest& stop = {});
+PeaksOfRun simulate_for_peaks(const Simulation& simulation, const PeaksAsked& asked, const StopRequest& stop = {});
 
 // Those of a table's columns but of t, at its rows alone.
 struct NamedPeak {

@@ -13,6 +13,9 @@
 
 namespace chainreel {
 
+// What a picture remembers besides, in its audit, where an event was asked for: its name.
+inline constexpr const char* kAtEvent = "at_event";
+
 struct Moment {
   double at = 0;  // s
   Picture picture;

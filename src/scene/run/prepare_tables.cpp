@@ -32,11 +32,23 @@ void say_once(std::vector<std::string>& list, const std::string& text) {
   if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
 }
 
+// A log of torques that begins behind the run's end has a clock of its own: as of a motion, t = 0 is its first row.
+void set_clock(Scene& scene, const Chain& chain, Control& control) {
+  if (control.csv.empty() || control.outside) return;
+  const double first = read_time_table(control.csv, {}, chain.coordinate_names, control.columns).t.front();
+  if (!(first >= scene.duration)) return;
+  control.since_first_row = true;
+  say_once(scene.notices, "t = 0 is the first row of " + control.csv + ", whose '" + control.columns.time.name + "' is " + format_shortest(first) +
+                              " s, behind the end of the run: `outside: hold` or zero beside the table takes its times as they stand");
+}
+
 // What a table is taken for beyond its ends.
 void look_at_span(Scene& scene, const Chain& chain, const std::string& path, const std::optional<Outside>& outside,
-                  const std::string& what, const Place& place, const ColumnNames& columns = {}) {
+                  const std::string& what, const Place& place, const ColumnNames& columns = {}, bool since_first_row = false) {
   if (path.empty() || outside == Outside::hold || outside == Outside::zero) return;
-  const std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, columns).t;
+  std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, columns).t;
+  if (const double first = t.front(); since_first_row)
+    for (double& one : t) one -= first;
   const bool late = t.front() > kSame * scene.duration, early = t.back() < (1 - kSame) * scene.duration;
   if (t.back() > kOtherUnit * scene.duration)
     say_once(scene.doubts, "the table " + path + " goes on until " + format_shortest(t.back()) + " s, of which the run of " + format_shortest(scene.duration) +
@@ -56,7 +68,7 @@ void look_at_controls(Scene& scene, const Chain& chain) {
   for (const NamedControl& one : controls_of(scene, chain)) {
     const Control& control = *one.control;
     const std::string torque = "the torque of its nearest row is", pose = "the pose of its nearest row is";
-    look_at_span(scene, chain, control.csv, control.outside, torque, control.place, control.columns);
+    look_at_span(scene, chain, control.csv, control.outside, torque, control.place, control.columns, control.since_first_row);
     look_at_span(scene, chain, control.inverse_of, control.outside, pose, control.place);
     for (const std::optional<Feedback>& feedback : {control.pd, control.computed_torque})
       if (feedback) look_at_span(scene, chain, feedback->trajectory, feedback->outside, pose, control.place);
@@ -133,6 +145,9 @@ void prepare_motion(Scene& scene, Simulation& simulation) {
 
 void prepare_tables(Scene& scene, const Chain& chain) {
   take_start(scene, chain);
+  if (scene.control) set_clock(scene, chain, *scene.control);
+  for (TorqueEntry& entry : scene.torque)
+    if (entry.control) set_clock(scene, chain, *entry.control);
   look_at_controls(scene, chain);
 }
 

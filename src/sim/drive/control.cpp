@@ -336,7 +336,7 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
         control.place);
   std::vector<std::unique_ptr<TorqueLaw>> parts;
   if (!control.csv.empty()) {
-    TimeTable table = read_time_table(control.csv, {"tau"}, chain.coordinate_names, control.columns);
+    TimeTable table = time_table_of(control.since_first_row ? read_log(control.csv, control.columns) : read_table(control.csv, control.columns), {"tau"}, chain.coordinate_names, control.columns);
     if (table.groups[0].empty())
       throw Error(ExitCode::bad_input, "has no columns tau1 to tau" + std::to_string(chain.nv) + 
                       ": of other names, beside `csv:`, say `columns: {time: " + control.columns.time.text() + ", " + chain.coordinate_names.front() + ": NAME}`",

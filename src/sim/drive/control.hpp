@@ -37,6 +37,7 @@ struct Feedback {
 struct Control {
   std::string csv;                          // t,tau1..: linear between the rows
   ColumnNames columns{};                    // of the csv, where its maker has names of his own
+  bool since_first_row = false;             // the csv's clock is another one: t = 0 is its first row
   std::string inverse_of;                   // t,q1..: the torques that this motion takes
   std::optional<Outside> outside{};         // of these two tables; absent: held, and said
   std::optional<Feedback> pd;               // kp (q_ref - q) + kd (qd_ref - qd)
