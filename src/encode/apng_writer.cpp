@@ -1,9 +1,11 @@
 // FFmpeg's writer of APNG knows no texts: they are put in behind the head once the file is whole, as iTXt
-// chunks (PNG specification, 5.3 and 11.3.4.5).
+// chunks (PNG specification, 5.3 and 11.3.4.5). Compressed, as FFmpeg's players find out what a file is from its first 2048 bytes:
+// where these end before the picture, they take it for a still.
 #include <zlib.h>
 
 #include <fstream>
 #include <iterator>
+#include <new>
 
 #include "encode/codecs.hpp"
 #include "encode/muxer.hpp"
@@ -19,8 +21,13 @@ std::string big_endian(std::uint32_t value) {
 }
 
 std::string text_chunk(const std::string& keyword, const std::string& text) {
-  // Not compressed, no language, no translated keyword.
-  const std::string body = "iTXt" + keyword + std::string(5, '\0') + text;
+  uLongf size = compressBound(uLong(text.size()));
+  std::string packed(size, '\0');
+  const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()), uLong(text.size()), Z_BEST_COMPRESSION);
+  if (code != Z_OK) throw std::bad_alloc();
+  packed.resize(size);
+  // Compressed by method 0, no language, no translated keyword.
+  const std::string body = "iTXt" + keyword + std::string("\0\1\0\0\0", 5) + packed;
   const auto crc = std::uint32_t(crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size())));
   return big_endian(std::uint32_t(body.size() - 4)) + body + big_endian(crc);
 }

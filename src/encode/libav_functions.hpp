@@ -26,7 +26,7 @@ namespace chainreel {
 #define CHAINREEL_LIBAV_FORMAT(X)                                                            \
   X(av_find_best_stream) X(av_read_frame) X(av_seek_frame) X(av_write_frame) X(av_write_trailer) \
   X(avformat_alloc_output_context2) X(avformat_close_input) X(avformat_find_stream_info)     \
-  X(avformat_free_context) X(avformat_new_stream) X(avformat_open_input) X(avformat_version) \
+  X(avformat_free_context) X(avformat_new_stream) X(avformat_open_input) X(av_find_input_format) X(avformat_version) \
   X(avformat_write_header) X(avio_alloc_context) X(avio_context_free) X(avio_flush)
 #define CHAINREEL_LIBAV_SCALE(X)                                                                       \
   X(sws_freeContext) X(sws_getCoefficients) X(sws_getContext) X(sws_scale) X(sws_setColorspaceDetails)

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "picture/latex_words.hpp"
 #include "picture/text.hpp"
 
 namespace chainreel {
@@ -115,22 +116,6 @@ constexpr std::array<Sign, 32> kSigns = {{
     {U')', U')', AtomKind::close},        {U']', U']', AtomKind::close},
     {U',', U',', AtomKind::comma},        {U';', U';', AtomKind::comma},
     {U'\'', 0x2032, AtomKind::operand},
-}};
-
-// What LaTeX calls otherwise, as far as lectures on mechanics need it.
-constexpr std::array<std::u32string_view, 5> kLatexSpaces = {U",", U";", U":", U"!", U" "};
-constexpr std::array<std::u32string_view, 8> kLatexLayout = {U"left", U"right", U"big", U"Big", U"quad", U"qquad", U"displaystyle", U"limits"};
-constexpr std::array<std::u32string_view, 4> kLatexTexts = {U"mathrm", U"text", U"textrm", U"operatorname"};
-constexpr std::array<std::pair<std::u32string_view, std::u32string_view>, 14> kLatexWords = {{
-    {U"dfrac", U"frac"}, {U"tfrac", U"frac"}, {U"widehat", U"hat"}, {U"overline", U"bar"}, {U"mathbf", U"bold"}, {U"boldsymbol", U"bold"},
-    {U"bm", U"bold"}, {U"arcsin", U"asin"}, {U"arccos", U"acos"}, {U"arctan", U"atan"}, {U"varphi", U"phi"}, {U"varepsilon", U"epsilon"},
-    {U"vartheta", U"theta"}, {U"varrho", U"rho"},
-}};
-constexpr std::array<std::pair<std::u32string_view, char32_t>, 28> kLatexSigns = {{
-    {U"cdot", kDot}, {U"times", kTimes}, {U"pm", 0xB1}, {U"mp", 0x2213}, {U"le", 0x2264}, {U"leq", 0x2264}, {U"ge", 0x2265}, {U"geq", 0x2265},
-    {U"approx", 0x2248}, {U"ne", 0x2260}, {U"neq", 0x2260}, {U"to", 0x2192}, {U"rightarrow", 0x2192}, {U"Rightarrow", 0x21D2}, {U"sim", 0x223C},
-    {U"propto", 0x221D}, {U"in", 0x2208}, {U"ll", 0x226A}, {U"gg", 0x226B}, {U"infty", 0x221E}, {U"partial", 0x2202}, {U"nabla", 0x2207},
-    {U"sum", 0x2211}, {U"int", 0x222B}, {U"dots", 0x2026}, {U"ldots", 0x2026}, {U"circ", 0x2218}, {U"prime", U'\''},
 }};
 
 bool ends_operand(const std::vector<MathAtom>& atoms) {
@@ -245,7 +230,7 @@ class Reader {
     } else if (contains(kLatexTexts, word)) {
       needs_braces();
       at_ = end;
-      read_upright(atoms, U'}');
+      read_latex_text(atoms);
     } else if (contains(kChanges, word)) {
       at_ = end;
       read_change(atoms, word, depth);
@@ -339,6 +324,17 @@ class Reader {
     if (end == text_.npos) fail(close == U'"' ? "a quote that does not close" : "a brace is not closed");
     atoms.push_back({AtomKind::function, std::u32string(text_.substr(at_ + 1, end - at_ - 1)), 0, {}, {}, false});
     at_ = end + 1;
+  }
+
+  void read_latex_text(std::vector<MathAtom>& atoms) {
+    const std::size_t begin = at_;
+    read_upright(atoms, U'}');
+    const LatexText read = plain_latex_text(atoms.back().text);
+    if (!read.unknown.empty()) {
+      at_ = begin;
+      fail("\\" + encode_utf8(read.unknown) + " within \\text{..} is not known: leave the braces before it");
+    }
+    atoms.back().text = read.plain;
   }
 
   void read_word(std::vector<MathAtom>& atoms, int depth) {

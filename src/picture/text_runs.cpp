@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "picture/fonts_state.hpp"
 #include "picture/shaping.hpp"
 

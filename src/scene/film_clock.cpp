@@ -155,19 +155,20 @@ double FilmClock::shortest_step() const {
   return slowest / fps_.value();
 }
 
-std::optional<double> instant_of(const AnnotationEntry& entry, const std::vector<EventEntry>& events,
-                                 const EventHits& hits) {
+std::optional<double> instant_of(const AnnotationEntry& entry, const std::vector<RunEvents>& panels) {
   if (entry.event.empty()) return entry.at;
-  for (int k = 0; k < hits.size(); ++k)
-    if (events[std::size_t(hits.event[std::size_t(k)])].title() == entry.event) return hits.t[std::size_t(k)];
+  const auto panel = std::size_t(entry.panel - 1);
+  if (panel >= panels.size()) return std::nullopt;
+  const auto& [entries, hits] = panels[panel];
+  for (int k = 0; k < hits->size(); ++k)
+    if ((*entries)[std::size_t(hits->event[std::size_t(k)])].title() == entry.event) return hits->t[std::size_t(k)];
   return std::nullopt;
 }
 
-std::vector<Pause> pauses_of(const std::vector<AnnotationEntry>& entries, const std::vector<EventEntry>& events,
-                             const EventHits& hits) {
+std::vector<Pause> pauses_of(const std::vector<AnnotationEntry>& entries, const std::vector<RunEvents>& panels) {
   std::vector<Pause> pauses;
   for (const AnnotationEntry& entry : entries)
-    if (const std::optional<double> at = instant_of(entry, events, hits)) pauses.push_back({*at, entry.hold});
+    if (const std::optional<double> at = instant_of(entry, panels)) pauses.push_back({*at, entry.hold});
   return pauses;
 }
 

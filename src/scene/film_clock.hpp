@@ -79,12 +79,16 @@ class FilmClock {
   std::vector<Stretch> slow_;
 };
 
-// The instants at which the entries hold the film; for events the first of theirs among `hits`.
-std::vector<Pause> pauses_of(const std::vector<AnnotationEntry>& entries, const std::vector<EventEntry>& events,
-                             const EventHits& hits);
-// When an entry's words are meant; nothing for those of an event that does not happen.
-std::optional<double> instant_of(const AnnotationEntry& entry, const std::vector<EventEntry>& events,
-                                 const EventHits& hits);
+// The events of a panel's run, and when they happened.
+struct RunEvents {
+  const std::vector<EventEntry>* entries;
+  const EventHits* hits;
+};
+
+// The instants at which the entries hold the film; for events the first of theirs in the entry's own one of the `panels`.
+std::vector<Pause> pauses_of(const std::vector<AnnotationEntry>& entries, const std::vector<RunEvents>& panels);
+// When an entry's words are meant; nothing for those of an event that does not happen in its panel.
+std::optional<double> instant_of(const AnnotationEntry& entry, const std::vector<RunEvents>& panels);
 
 // The entries' stretches of the motion: those of an event once for each of its instants among `hits`, whose
 // run had the events `events`.

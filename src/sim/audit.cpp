@@ -6,6 +6,7 @@
 
 #include "core/hash.hpp"
 #include "dynamics/energy.hpp"
+#include "sim/torques_along.hpp"
 
 namespace chainreel {
 namespace {
@@ -35,6 +36,20 @@ class Stake {
 };
 
 }  // namespace
+
+SpringEnergy::SpringEnergy(const Simulation& simulation) {
+  for (const LinearDrive& drive : linear_drives(simulation))
+    if (drive.is_spring() && !drive.follows) springs_.push_back(drive);
+}
+
+double SpringEnergy::at(ConstVec q) const {
+  double energy = 0;
+  for (const LinearDrive& spring : springs_) {
+    const double stretch = q[std::size_t(spring.freedom)] - spring.rest;  // without floating joints coordinates are freedoms
+    energy += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  return energy;
+}
 
 EnergyBalance::EnergyBalance(const Simulation& simulation)
     : chain_(simulation.chain),

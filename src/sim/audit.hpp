@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/drive/linear_drive.hpp"
 #include "sim/simulate.hpp"
 
 namespace chainreel {
@@ -24,13 +25,24 @@ struct Audit {
 // The first `samples` samples of the trajectory (all of them where negative).
 Audit audit_of(const Simulation& simulation, const Trajectory& trajectory, int samples = -1);
 
+// The energy that springs hold: torques that the scene's own text says are a coordinate's spring, see `linear_drives`. J.
+class SpringEnergy {
+ public:
+  explicit SpringEnergy(const Simulation& simulation);
+  bool has_springs() const { return !springs_.empty(); }
+  double at(ConstVec q) const;
+
+ private:
+  std::vector<LinearDrive> springs_;
+};
+
 // Energy errors of single states of a run.
 class EnergyBalance {
  public:
   explicit EnergyBalance(const Simulation& simulation);
   double energy_start() const { return energy_start_; }
   struct State {
-    double kinetic, potential, error;  // J
+    double kinetic, potential, error;  // J; springs work like other torques
   };
   State at(ConstVec q, ConstVec qd, double work);
 

@@ -142,14 +142,19 @@ PlotCurves columns(const std::vector<double>& table, const std::vector<std::stri
 
 PlotCurves energies(const Simulation& simulation, const Trajectory& trajectory, int samples) {
   PlotCurves plot;
-  plot.curves = {{"kinetic", {}}, {"potential", {}}, {"total", {}}};
+  PlotCurve kinetic{"kinetic", {}}, potential{"potential", {}}, of_springs{"springs", {}}, total{"total", {}};
+  const SpringEnergy springs(simulation);
   Workspace ws(simulation.chain);
   for (int k = 0; k < samples; ++k) {
     const Energy energy = energy_of(simulation.chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
-    plot.curves[0].y.push_back(energy.kinetic);
-    plot.curves[1].y.push_back(energy.potential);
-    plot.curves[2].y.push_back(energy.total());
+    kinetic.y.push_back(energy.kinetic);
+    potential.y.push_back(energy.potential);
+    of_springs.y.push_back(springs.at(trajectory.q_at(k)));
+    total.y.push_back(energy.total() + of_springs.y.back());
   }
+  plot.curves = {std::move(kinetic), std::move(potential)};
+  if (springs.has_springs()) plot.curves.push_back(std::move(of_springs));
+  plot.curves.push_back(std::move(total));
   return plot;
 }
 
@@ -267,7 +272,7 @@ PlotCurves curves_of(const PlotSet::Plot& plot, const PlotSet& plots, const Simu
 }  // namespace
 
 std::span<const Name> names_of(PlotQuantity) {
-  static constexpr Name names[] = {{"energy", "kinetic, potential and their sum, J"},
+  static constexpr Name names[] = {{"energy", "kinetic, potential, of springs, and their sum, J"},
                                    {"energy_error", "what the work of the torques does not explain, J"},
                                    {"q", "of each joint, rad or m"},
                                    {"qd", "of each joint, rad/s or m/s"},

@@ -23,7 +23,7 @@ struct Simulation;
 inline constexpr double kRoundedZero = 1e-12;
 
 enum class PlotQuantity {
-  energy,        // kinetic, potential and their sum, J
+  energy,        // kinetic, potential, of springs where there are, and their sum, J
   energy_error,  // E(t) - E(0) - work, J
   q,             // of each joint
   qd,

@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "core/json.hpp"
+#include "encode/png.hpp"
+#include "model/read_chain.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -125,6 +127,43 @@ TEST(FilmOfToday, FindsWhatPicturesWithoutAuditsShow) {
   EXPECT_THAT(asked({"--commands"}).out, HasSubstr("# what --set changed is not known, as no audit lies beside it: chainreel snapshot"));
   fs::rename(scene, folder.file("scenes/other.yaml"));
   EXPECT_THAT(asked().err, AllOf(HasSubstr("3 files are not asked about"), HasSubstr("s.png"), HasSubstr("s.svg")));
+}
+
+// A pose that has its name beside the model, and an instant that is an event's.
+TEST(FilmOfToday, AsksWhereNamedPosesAndEventsAreNow) {
+  const TemporaryFolder folder;
+  for (const char* name : {"docs", "events"}) fs::create_directory(folder.file(name));
+  const std::string urdf = folder.write("rr.urdf", read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf"));
+  const std::string robot = read_chain(urdf).name, joint = read_chain(urdf).coordinate_names.front();
+  const auto write_poses = [&](const char* angle) {
+    folder.write("rr.srdf", "<robot name=\"" + robot + "\"><group_state name=\"ready\" group=\"a\"><joint name=\"" + joint + "\" value=\"" + angle + "\"/></group_state></robot>");
+  };
+  write_poses("0.5");
+  ASSERT_EQ(run_program({"snapshot", urdf, "--pose", "ready", "-o", folder.file("docs/a.png"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_program({"ellipse", urdf, "--pose", "ready", "--pose", "0,1", "-o", folder.file("docs/b.png"), "--quiet"}).status, 0);
+  const auto asked = [&](const char* docs, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"check", folder.file(docs), "--today"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  EXPECT_EQ(asked("docs").status, 0) << asked("docs").out;
+  write_poses("0.75");
+  EXPECT_EQ(asked("docs").status, 1);
+  EXPECT_THAT(asked("docs").out, AllOf(HasSubstr("a.png is NOT what "), HasSubstr("b.png is NOT what "), HasSubstr("pose ready: " + joint + "=0.5 -> " + joint + "=0.75")));
+
+  const std::string page = "model: rr.urdf\nduration: 1\nmethod: rk4\nevents: [{when: \"q1 < -0.3\", name: low}]\nvideo: {width: 160, height: 90}\n";
+  const std::string scene = folder.write("a.yaml", page + "start: {q: [0, 0]}\n"), low = folder.file("events/low.png");
+  const auto show = [&](const std::string& path) { return run_program({"snapshot", scene, "--at", "event low", "--quiet", "-o", path}).status; };
+  ASSERT_EQ(show(low), 0);
+  EXPECT_EQ(asked("events").status, 0) << asked("events").out;
+  folder.write("a.yaml", page + "start: {q: [0.4, 0]}\n");
+  EXPECT_EQ(asked("events").status, 1);
+  RunOptions shell;
+  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
+  ASSERT_EQ(run_command({"sh", "-e", "-c", asked("events", {"--commands"}).out}, shell).status, 0);
+  EXPECT_EQ(asked("events").status, 0) << asked("events").out;
+  ASSERT_EQ(show(folder.file("now.png")), 0);
+  EXPECT_TRUE(read_png(low).bgra == read_png(folder.file("now.png")).bgra);
 }
 
 // What is gone comes back as it was: a picture with its instant, a film with its words.

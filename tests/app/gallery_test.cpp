@@ -76,6 +76,8 @@ TEST(Gallery, SaysWhatBrowsersDoNotPlay) {
   render(folder, "b.mov");
   EXPECT_THAT(gallery(folder, {}).err, AllOf(HasSubstr("left out: " + folder.file("b.mov") + ";"), Not(HasSubstr("a.mov,"))));
   EXPECT_EQ(gallery(folder, {"--quiet"}).err, "");
+  render(folder, "a.gif");
+  EXPECT_THAT(gallery(folder, {}).err, HasSubstr("shown once, as the film of the same name: " + folder.file("a.gif") + ";"));
 }
 
 // What moves by itself needs no controls; who wants less motion sees its poster.

@@ -55,7 +55,18 @@ class Replay : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-double largest_difference(const Table& a, const Table& b) {
+// A log does not know which of its torques were a spring's, whose energy the run tells.
+Table without_springs(Table table) {
+  for (const char* name : {"springs", "energy"})
+    if (const int i = table.find(name); i >= 0) {
+      table.names.erase(table.names.begin() + i);
+      table.columns.erase(table.columns.begin() + i);
+    }
+  return table;
+}
+
+double largest_difference(const Table& one, const Table& other) {
+  const Table a = without_springs(one), b = without_springs(other);
   double largest = 0;
   EXPECT_EQ(a.names, b.names);
   EXPECT_EQ(a.rows(), b.rows());

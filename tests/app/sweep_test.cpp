@@ -76,6 +76,28 @@ TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
   EXPECT_EQ(row[11], alone[std::size_t(energy - names.begin())]);
 }
 
+// The value of an expression at the end of each run, as a column and as a map.
+TEST(SweepTable, HasExpressionsAtTheEnd) {
+  const TemporaryFolder folder;
+  const std::string distance = "sqrt(x_G^2 + max(y_G, -9)^2)";
+  ASSERT_EQ(sweep(folder.file("a.csv"), with(kGrid, {"--last", "q1 - 2 * q2", "--last", distance, "--peaks", "qd2"})).status, 0);
+  const std::vector<std::string> lines = lines_of(folder.file("a.csv"));
+  EXPECT_THAT(lines[3], HasSubstr(",energy [J],peak_qd2 [rad/s],q1 - 2 * q2,\"" + distance + "\",trouble"));
+  for (std::size_t run = 4; run < lines.size(); ++run) {
+    const std::vector<std::string> row = fields_of(lines[run]);
+    EXPECT_DOUBLE_EQ(std::stod(row[13]), std::stod(row[7]) - 2 * std::stod(row[8]));
+    // Of rr.urdf, whose links are 1 m: the law of cosines.
+    EXPECT_NEAR(std::stod(row[14]), std::sqrt(2 + 2 * std::cos(std::stod(row[8]))), 1e-12);
+  }
+  const Words grid{"--over", "start.q.1=0:1.5:4", "--over", "start.q.2=0:1:3", "--set", "duration=0.3"};
+  EXPECT_EQ(sweep(folder.file("b.png"), with(grid, {"--last", "x_G"})).status, 0) << "its only column besides";
+  EXPECT_EQ(sweep(folder.file("c.png"), with(grid, {"--last", "x_G", "--peaks", "qd1", "--map", "x_G"})).status, 0);
+  EXPECT_THAT(sweep(folder.file("d.png"), with(grid, {"--map", "x_G"})).err, HasSubstr("--last adds the value of an expression"));
+  EXPECT_THAT(sweep(folder.file("e.csv"), with(grid, {"--last", "x_H"})).err, HasSubstr("--last 'x_H': unknown name"));
+  EXPECT_THAT(sweep(folder.file("e.csv"), with(grid, {"--last", "energy"})).err, HasSubstr("write an expression"));
+  EXPECT_FALSE(fs::exists(folder.file("e.csv")));
+}
+
 // However values are written, columns hold SI units and radians.
 TEST(SweepTable, ColumnsOfValuesAreNumbers) {
   const TemporaryFolder folder;
@@ -638,7 +660,7 @@ TEST(SweepMap, ShowsAColumnOfTheTableOverItsTwoKeys) {
   EXPECT_THAT(svg, AllOf(HasSubstr("DOP853"), Not(HasSubstr("doubtful"))));
   // Numbers that a table calls doubtful have a dot, and the page says of how many.
   ASSERT_EQ(swept({"--peaks", "qd", "--map", "qd2", "--set", "method=semi_implicit_euler", "--set", "step=0.3", "-o", folder.file("d.svg")}).status, 0);
-  EXPECT_THAT(read_whole_file(folder.file("d.svg")), AllOf(HasSubstr("doubtful"), HasSubstr("its column")));
+  EXPECT_THAT(read_whole_file(folder.file("d.svg")), AllOf(HasSubstr("doubtful"), HasSubstr("column `trouble`")));
   // By the first of the peaks where no column is named; what has no number is hatched.
   ASSERT_EQ(swept({"--map", "down", "-o", folder.file("e.svg"), "-o", folder.file("e.csv")}).status, 0);
   EXPECT_THAT(read_whole_file(folder.file("e.svg")), HasSubstr("no value"));

@@ -111,7 +111,19 @@ TEST(SimulateEvery, GivesTheTimeBetweenRows) {
   EXPECT_THAT(read_whole_file(folder.file("a.csv")), testing::AllOf(HasSubstr("\n0.045,"), HasSubstr("\n0.05,"))) << "the end is there in any case";
   for (const char* wrong : {"0", "-1ms", "1e-12", "soon"}) EXPECT_NE(table({"--every", wrong}).status, 0) << wrong;
   EXPECT_EQ(table({"--every", "1ms", "--every-step"}).status, 2);
-  EXPECT_THAT(table({"--peaks", "qd1"}).err, HasSubstr("--peaks: qd1 is one of qd: ask for qd"));
+  // One of a column's numbers, or all of them.
+  const std::string all = table({"--peaks", "qd,tau"}).out, one = table({"--peaks", "qd2"}).out;
+  const auto line_of = [](const std::string& text, const std::string& name) {
+    const std::size_t at = text.find("\n" + name);
+    std::string line = at == text.npos ? "" : text.substr(at, text.find('\n', at + 1) - at);
+    line.erase(std::unique(line.begin(), line.end(), [](char a, char b) { return a == ' ' && b == ' '; }), line.end());
+    return line;
+  };
+  EXPECT_EQ(line_of(one, "qd2"), line_of(all, "qd2"));
+  EXPECT_NE(line_of(one, "qd2"), "");
+  EXPECT_THAT(one, testing::Not(HasSubstr("qd1")));
+  EXPECT_THAT(table({"--peaks", "qd7"}).err, HasSubstr("--peaks: the model has no qd7; it has qd1, qd2"));
+  EXPECT_THAT(table({"--peaks", "qd,qd2"}).err, HasSubstr("leave one out"));
 }
 
 TEST(SimulateTables, AreTheSameMotionInEveryFormat) {

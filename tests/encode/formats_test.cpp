@@ -253,7 +253,7 @@ TEST(Formats, AnApngIsExactAndSaysWhatItIs) {
                            .height = kHeight,
                            .fps = {50, 1},
                            .alpha = true,
-                           .tags = {{"chainreel_scene", "\u03C4: [0, 0]\n"}}});
+                           .tags = {{"chainreel_audit", std::string(20'000, 'a')}, {"chainreel_scene", "\u03C4: [0, 0]\n"}}});  // longer than what players look into
   for (int k = 0; k < 2 * kFrames; ++k) writer.write(floating_disc(k));
   writer.finish();
   const VideoFacts facts = probe_video(path);

@@ -56,10 +56,12 @@ TEST(Math, MatricesAreBoldUprightExceptInScripts) {
   EXPECT_THAT(words("J^{-\\top}"), words("J^{-T}"));
   EXPECT_THAT(words("\\mathbf{C}(q)"), ElementsAre("\U0001D402(\U0001D45E)"));
   EXPECT_THAT(words("\\boldsymbol\\omega \\mathrm{max}"), ElementsAre("\U0001D6DAmax"));
+  EXPECT_THAT(words("\\mathrm{N\\,m}"), ElementsAre("N\u2009m"));
+  EXPECT_THAT(words("\\text{N \\cdot m}"), ElementsAre("N \u22C5m")) << "the blank ends the word";
   EXPECT_THAT(words("{a + b}_1"), words("a + b_1"));
   EXPECT_THAT(words("\\Rightarrow \\dfrac{1}{2} \\varphi"), words("\\Rightarrow frac{1}{2} phi"));
   EXPECT_EQ(lay_out("\\sqrt{x}").marks.size(), 4u) << "the strokes of a root";
-  for (const char* unknown : {"\\nonsense", "\\frac12", "x^2^3", "\\", "\\ddot{a b}", "dot{}", "\\ddot", "}", "\\mathrm{a", "\\sqrt x"}) EXPECT_THROW(words(unknown), Error) << unknown;
+  for (const char* unknown : {"\\nonsense", "\\frac12", "x^2^3", "\\", "\\ddot{a b}", "dot{}", "\\ddot", "}", "\\mathrm{a", "\\text{a \\foo b}", "\\sqrt x"}) EXPECT_THROW(words(unknown), Error) << unknown;
 }
 
 TEST(Math, MinusIsASignOfItsOwnAndCloserInFrontThanBetween) {

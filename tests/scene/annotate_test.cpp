@@ -47,10 +47,25 @@ TEST(FilmClockWithPauses, ComeWithTheFirstOfTheirEvents) {
   touch.event = "touch";
   touch.hold = 0.5;
   never.event = "q2";
-  const std::vector<Pause> pauses = pauses_of({touch, never}, events, hits);
+  const std::vector<Pause> pauses = pauses_of({touch, never}, {{&events, &hits}});
   ASSERT_EQ(pauses.size(), 1u);
   EXPECT_EQ(pauses[0].at, 1);
   EXPECT_EQ(pauses[0].seconds, 0.5);
+}
+
+// Words of a comparison's panel go with that panel's run.
+TEST(FilmClockWithPauses, ComeWithTheEventsOfTheirPanel) {
+  const std::vector<EventEntry> events{{"q1", {}, "touch", {}, {}}};
+  EventHits early, late, never;
+  const double nothing[] = {0.0};
+  early.add(0, 1, nothing, nothing);
+  late.add(0, 2.5, nothing, nothing);
+  AnnotationEntry entry;
+  entry.event = "touch";
+  entry.panel = 2;
+  EXPECT_EQ(instant_of(entry, {{&events, &early}, {&events, &late}}), 2.5);
+  EXPECT_EQ(instant_of(entry, {{&events, &early}, {&events, &never}}), std::nullopt);
+  EXPECT_EQ(instant_of(entry, {{&events, &early}}), std::nullopt);
 }
 
 class Annotate : public WrittenScenes {};

@@ -83,6 +83,19 @@ TEST_F(SceneTables, RowsThatDoNotSpanTheRunAreSaidOrRefused) {
   EXPECT_THAT(ready("torque: {csv: tau.csv}\n").notices, IsEmpty());
 }
 
+// Stamps that count from elsewhere: none of the rows would act.
+TEST_F(SceneTables, LogsOfTorquesWithAnotherClockBeginAtTheStart) {
+  torques("100,1,0,0\n101,2,0,0\n102,3,0,0\n");
+  const Scene scene = ready("torque: {csv: tau.csv}\n");
+  EXPECT_THAT(scene.notices, ElementsAre(HasSubstr("t = 0 is the first row of ")));
+  ASSERT_TRUE(scene.control);
+  EXPECT_TRUE(scene.control->since_first_row);
+  const Scene held = ready("torque: {csv: tau.csv, outside: hold}\n");
+  EXPECT_FALSE(held.control->since_first_row) << "its times as they stand";
+  torques("1.9,1,0,0\n2.9,2,0,0\n");
+  EXPECT_FALSE(ready("torque: {csv: tau.csv}\n").control->since_first_row) << "a row of it acts";
+}
+
 TEST_F(SceneTables, ReferencesOfFeedbackAreSaidToo) {
   motion("0,0,0,0\n1,1,0,0\n");
   EXPECT_THAT(ready("torque: {pd: {kp: 1, trajectory: q.csv}}\n").notices, ElementsAre(HasSubstr("behind it the pose")));

@@ -51,6 +51,28 @@ TEST(Plots, ShowQuantitiesByName) {
   EXPECT_EQ(plots[1].curves[1].y[0], -0.2);
 }
 
+// A spring in a joint holds 1/2 k (q - a)^2 from the start on: without a damper the total stays as it is, with another torque it does not.
+TEST(Plots, OfEnergiesHaveThatOfSpringsInTheirTotal) {
+  Simulation run = pendulum({{"energy", "", {}}});
+  const auto energies_under = [&](const std::vector<TorqueEntry>& torques) {
+    run.torque = make_torque_law(run.chain, torques, {});
+    return plot_curves(run, simulate(run, kTimes), int(kTimes.size())).front().curves;
+  };
+  const std::vector<PlotCurve> spring = energies_under({{"-7 * (q1 - 0.5)", {}, {}}, {"0", {}, {}}});
+  ASSERT_EQ(spring.size(), 4u);
+  EXPECT_EQ(spring[2].name, "springs");
+  EXPECT_DOUBLE_EQ(spring[2].y[0], 0.5 * 7 * 0.2 * 0.2);
+  double moved = 0;
+  for (std::size_t k = 0; k < kTimes.size(); ++k) {
+    EXPECT_NEAR(spring[3].y[k], spring[3].y[0], 1e-8) << "what dop853 at 1e-10 adds in a second";
+    moved = std::max(moved, std::abs(spring[2].y[k] - spring[2].y[0]));
+  }
+  EXPECT_GT(moved, 0.01);
+  const std::vector<PlotCurve> motor = energies_under({{"-7 * (q1 - 0.5)", {}, {}}, {"3", {}, {}}});
+  EXPECT_GT(std::abs(motor[3].y[4] - motor[3].y[0]), 0.01) << "the motor's work is none of it";
+  EXPECT_EQ(energies_under({{"7 * q1", {}, {}}, {"0", {}, {}}}).size(), 3u) << "what pushes away is no spring";
+}
+
 // Of what swings so fast that it would take off in between: a centre of pressure far from the foot, or none at all, would leave
 // no height for the rest of the curve.
 TEST(Plots, OfTheCentreOfPressureHaveGapsWhereNothingPressesNearTheFoot) {

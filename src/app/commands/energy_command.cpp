@@ -168,8 +168,8 @@ class Columns {
  public:
   Columns(const std::vector<double>& ends, EnergyCurve& curve) : ends_(ends), curve_(curve) {}
 
-  void see(double t, const EnergyBalance::State& state) {
-    const double error = state.error, energy = state.kinetic + state.potential;
+  void see(double t, const EnergyBalance::State& state, double springs) {
+    const double error = state.error, energy = state.kinetic + state.potential + springs;
     const std::size_t before = column_;
     while (column_ + 1 < ends_.size() && t > ends_[column_]) ++column_;
     if (curve_.t.empty() || column_ != before) {
@@ -196,6 +196,7 @@ MethodRun run_subject(const Subject& subject, const std::vector<double>& times, 
   MethodRun run;
   run.subject = &subject;
   EnergyBalance balance(simulation);
+  const SpringEnergy springs(simulation);
   Columns columns(times, run.curve);
   const Trajectory trajectory = simulate(
       simulation, times, stop,
@@ -203,7 +204,7 @@ MethodRun run_subject(const Subject& subject, const std::vector<double>& times, 
         const EnergyBalance::State state = balance.at(q, qd, work);
         run.at_end = state.error;
         run.largest = std::max(run.largest, std::abs(run.at_end));
-        columns.see(t, state);
+        columns.see(t, state, springs.at(q));
       });
   throw_if_interrupted();
   run.largest_between = audit_of(simulation, trajectory).largest_error;

@@ -90,6 +90,20 @@ std::string place_of(const StabilityCells& cells) {
   return "the rest that feedback leads to, or else the start" + std::string(along);
 }
 
+// Where theory is told of a cell and the run does otherwise.
+struct Agreement {
+  std::size_t known = 0, otherwise = 0;
+
+  explicit Agreement(const StabilityCells& cells) {
+    for (const StabilityCell& cell : cells.cells) {
+      known += cell.stable.has_value();
+      otherwise += cell.stable.has_value() && *cell.stable == cell.failed;
+    }
+  }
+  // A twentieth is what cells beside the line are.
+  bool is_rough() const { return 20 * otherwise > known; }
+};
+
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   StabilityMap map;
   map.title = "Where " + method_title(cells.method) + " fails";
@@ -105,7 +119,13 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   map.footer = "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) +
                " steps; failed: no end, or an energy error above " + format_shortest(kFailedEnergy) +
                " times the motion's largest kinetic energy.";
+  const Agreement agreement(cells);
   if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about " + place_of(cells) + ".";
+  if (!map.boundaries.empty() && agreement.is_rough()) {
+    for (MapBoundary& boundary : map.boundaries) boundary.is_rough = true;
+    if (map.boundaries.front().label == kTheory) map.boundaries.front().label = "linearised";
+    map.footer += " " + std::to_string(agreement.otherwise) + " of " + std::to_string(agreement.known) + " cells do otherwise: the motion is far from linear.";
+  }
   if (!map.boundaries.empty() && cells.about_motion > 0) map.footer += " " + std::string(kNoEquilibrium) + ".";
   if (scene.limit == LimitPolicy::clamp)
     map.footer += " Torques are cut at the joints' efforts, which bounds errors of the energy, too: a run may chatter and not fail.";

@@ -194,7 +194,7 @@ class RowMaker {
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
-    row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) + "," + energy_at_end(chain, run) : no_state() + ",");
+    row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) + "," + energy_at_end(simulation, run) : no_state() + ",");
     for (const Peak& peak : peaks) row += "," + format_shortest(peak.value);
     for (std::size_t i = 0; i < job_.last.size(); ++i) {
       const std::size_t plot = simulation.plots->list.size() - job_.last.size() + i;
@@ -209,9 +209,10 @@ class RowMaker {
   std::string failed_row(const std::string& why) const {
     return ",0,refused,,," + no_state() + "," + std::string(peaks_ + job_.last.size() + events_, ',') + "," + csv_words(why);
   }
-  static std::string energy_at_end(const Chain& chain, const Trajectory& run) {
-    Workspace ws(chain);
-    return format_shortest(energy_of(chain, ws, run.q_at(run.size() - 1), run.qd_at(run.size() - 1)).total());
+  static std::string energy_at_end(const Simulation& simulation, const Trajectory& run) {
+    Workspace ws(simulation.chain);
+    const ConstVec q = run.q_at(run.size() - 1);
+    return format_shortest(energy_of(simulation.chain, ws, q, run.qd_at(run.size() - 1)).total() + SpringEnergy(simulation).at(q));
   }
   std::string no_state() const { return std::string(std::size_t(std::count(states_.begin(), states_.end(), ',')), ','); }
 

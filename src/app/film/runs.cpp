@@ -86,19 +86,22 @@ std::vector<Stretch> own_stretches(const PreparedFilm& film, const std::vector<T
 // `runs`: as above; null where none was needed for that.
 FilmClock clock_after(const PreparedFilm& film, const std::vector<Trajectory>* runs) {
   const Scene& scene = film.scene;
-  const PreparedScene& first = film.panels.front();
-  EventHits hits;
+  std::vector<EventHits> hits(film.panels.size());
+  std::vector<RunEvents> panels;
   const auto is_of_event = [](const auto& entry) { return !entry.event.empty(); };
-  if (runs != nullptr) {
-    hits = runs->front().events;
-  } else if (std::any_of(scene.slow_motion.begin(), scene.slow_motion.end(), is_of_event) ||
-             std::any_of(scene.annotate.begin(), scene.annotate.end(), is_of_event)) {
-    hits = simulate(first.simulation, {}, [](double) { return interrupted(); }).events;
+  const bool slows_at_events = std::ranges::any_of(scene.slow_motion, is_of_event);  // of the first panel
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const auto is_of_panel = [&](const AnnotationEntry& entry) { return is_of_event(entry) && std::size_t(entry.panel) == i + 1; };
+    if (runs != nullptr)
+      hits[i] = (*runs)[i].events;
+    else if ((i == 0 && slows_at_events) || std::ranges::any_of(scene.annotate, is_of_panel))
+      hits[i] = simulate(film.panels[i].simulation, {}, [](double) { return interrupted(); }).events;
     throw_if_interrupted();
+    panels.push_back({&film.panels[i].scene.events, &hits[i]});
   }
   const FilmClock clock(scene.duration, scene.video.fps,
-                        runs != nullptr ? own_stretches(film, *runs) : stretches_of(scene.slow_motion, first.scene.events, hits),
-                        pauses_of(scene.annotate, first.scene.events, hits));
+                        runs != nullptr ? own_stretches(film, *runs) : stretches_of(scene.slow_motion, film.panels.front().scene.events, hits.front()),
+                        pauses_of(scene.annotate, panels));
   if (clock.is_plain()) return clock;
   const double frames = clock.film_seconds() * scene.video.fps.value();
   if (frames > kMostFrames)
@@ -120,6 +123,12 @@ FilmClock clock_of(const PreparedFilm& film) {
   if (!may_slow_down(film)) return clock_after(film, nullptr);
   const std::vector<Trajectory> runs = runs_of(film, plain_times(film), RunUse::for_clock);
   return clock_after(film, &runs);
+}
+
+std::vector<RunEvents> events_of(const Runs& runs) {
+  std::vector<RunEvents> panels;
+  for (std::size_t i = 0; i < runs.size(); ++i) panels.push_back({&runs.film().panels[i].scene.events, &runs[i].events});
+  return panels;
 }
 
 std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel) {

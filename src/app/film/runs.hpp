@@ -62,6 +62,9 @@ class Runs {
   std::vector<Trajectory> list_;
 };
 
+// The events of each panel.
+std::vector<RunEvents> events_of(const Runs& runs);
+
 // The same for one run: it finished or was stopped by a limit, or diverged.
 void require_expected_end(const Trajectory& trajectory, const Scene& scene);
 

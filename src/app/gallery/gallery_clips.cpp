@@ -91,8 +91,7 @@ void add_films_in(const fs::path& folder, FoundClips& found) {
       return other != path.string() && fs::exists(other, code) && audit_path_of(path.string()) == audit_path_of(other);
     };
     const auto* const own = std::find(kBestFirst.begin(), kBestFirst.end(), lower_case_ending(path.string()));
-    if (std::any_of(kBestFirst.begin(), own, shows_the_same)) continue;
-    in_folder.push_back(path.string());
+    (std::any_of(kBestFirst.begin(), own, shows_the_same) ? found.shown_once : in_folder).push_back(path.string());
   }
   std::sort(in_folder.begin(), in_folder.end());
   found.paths.insert(found.paths.end(), in_folder.begin(), in_folder.end());
@@ -229,7 +228,7 @@ FoundClips find_clips(const std::vector<std::string>& paths) {
     std::error_code code;
     if (fs::is_directory(path, code)) {
       add_films_in(path, found);
-      std::ranges::move(pictures_in(path, found.left_out), std::back_inserter(found.pictures));
+      std::ranges::move(pictures_in(path, found.left_out, found.shown_once), std::back_inserter(found.pictures));
     } else if (!fs::is_regular_file(path, code))
       problems.add("there is no such file or folder", {path});
     else if (!picture_type_of(path).empty())
@@ -244,6 +243,7 @@ FoundClips find_clips(const std::vector<std::string>& paths) {
   std::set<std::string> seen;
   for (auto* list : {&found.paths, &found.pictures}) std::erase_if(*list, [&](const std::string& path) { return !seen.insert(path).second; });
   std::sort(found.left_out.begin(), found.left_out.end());
+  std::sort(found.shown_once.begin(), found.shown_once.end());
   if (!found.paths.empty() || !found.pictures.empty()) return found;
   throw Error(ExitCode::bad_input, "there is no film (" + played_endings("or") + ") and no picture of ours here: render some first", {joined(paths)});
 }

@@ -43,6 +43,7 @@ std::string played_endings(const std::string& last_word);
 struct FoundClips {
   std::vector<std::string> paths;
   std::vector<std::string> pictures;  // see gallery_pictures; named, or in those folders
+  std::vector<std::string> shown_once;  // what shows the same as one of those under another ending
   std::vector<std::string> left_out;  // clips and pictures in those folders of kinds that browsers do not play or show
 };
 FoundClips find_clips(const std::vector<std::string>& paths);

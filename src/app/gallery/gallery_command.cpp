@@ -51,6 +51,8 @@ void run_gallery(const GalleryOptions& options) {
   if (!options.common.quiet && !found.left_out.empty())
     std::fprintf(stderr, "note: left out: %s; browsers play %s and show %s: give such a -o beside, as in -o a.mov -o a.mp4\n",
                  joined(found.left_out).c_str(), played_endings("and").c_str(), shown_endings("and").c_str());
+  if (!options.common.quiet && !found.shown_once.empty())
+    std::fprintf(stderr, "note: shown once, as the film of the same name: %s; name one on the command line to show it, too\n", joined(found.shown_once).c_str());
   tell_files(options.common, {options.output}, [&] { return Json{{"clips", clips.size()}, {"pictures", pictures.size()}}; });
 }
 

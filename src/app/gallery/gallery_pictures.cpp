@@ -102,14 +102,17 @@ std::string picture_type_of(const std::string& path) {
   return format ? format->browser_type : "";
 }
 
-std::vector<std::string> pictures_in(const std::string& folder, std::vector<std::string>& left_out) {
+std::vector<std::string> pictures_in(const std::string& folder, std::vector<std::string>& left_out, std::vector<std::string>& shown_once) {
   const std::vector<std::string> films = films_of(folder);
   std::vector<std::string> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string path = entry.path().string();
     std::error_code code;
-    if (!entry.is_regular_file(code) || goes_with(entry.path(), films)) continue;
-    if (find_output_format(path, Shows::still) == nullptr) continue;
+    if (!entry.is_regular_file(code) || find_output_format(path, Shows::still) == nullptr) continue;
+    if (goes_with(entry.path(), films)) {
+      if (std::ranges::count(films, entry.path().stem().string()) > 0) shown_once.push_back(path);
+      continue;
+    }
     // The same picture once.
     const std::string form = shown_form(path);
     if ((form.empty() || form == path) && remembers(path)) (form.empty() ? left_out : found).push_back(path);

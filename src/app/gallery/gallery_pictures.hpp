@@ -19,8 +19,9 @@ std::string shown_endings(const std::string& last_word);
 std::string picture_type_of(const std::string& path);
 
 // Those of a folder that this program made and that belong to none of its films: no poster, no chart and no still of one. By
-// their names. `left_out` gets those of kinds that browsers do not show and that lie beside none that they do.
-std::vector<std::string> pictures_in(const std::string& folder, std::vector<std::string>& left_out);
+// their names. `left_out` gets those of kinds that browsers do not show and that lie beside none that they do,
+// `shown_once` those that have a film's name.
+std::vector<std::string> pictures_in(const std::string& folder, std::vector<std::string>& left_out, std::vector<std::string>& shown_once);
 
 // Throws Error (exit 3) with the problems of all that cannot be shown.
 std::vector<GalleryPicture> read_pictures(const std::vector<std::string>& paths);

@@ -174,13 +174,15 @@ const EnergyCourse& SceneRun::energy(int panel) const {
   std::optional<EnergyCourse>& energy = state_->courses.at(std::size_t(panel)).energy;
   if (energy) return *energy;
   const Trajectory& run = trajectory(panel);
-  EnergyBalance balance(state_->film.panels[std::size_t(panel)].simulation);
+  const Simulation& simulation = state_->film.panels[std::size_t(panel)].simulation;
+  EnergyBalance balance(simulation);
+  const SpringEnergy springs(simulation);
   energy.emplace();
   for (int k = 0; k < run.size(); ++k) {
     const EnergyBalance::State now = balance.at(run.q_at(k), run.qd_at(k), run.work[std::size_t(k)]);
     energy->kinetic.push_back(now.kinetic);
     energy->potential.push_back(now.potential);
-    energy->total.push_back(now.kinetic + now.potential);
+    energy->total.push_back(now.kinetic + now.potential + springs.at(run.q_at(k)));
     energy->error.push_back(now.error);
   }
   return *energy;

@@ -39,8 +39,9 @@ struct FilmFiles {
 
 // Of the whole mechanism at each sample, J.
 struct EnergyCourse {
-  std::vector<double> kinetic, potential, total;
-  std::vector<double> error;  // total - total at the start - work of the torques and of friction
+  std::vector<double> kinetic, potential;
+  std::vector<double> total;  // with that of springs, see SpringEnergy
+  std::vector<double> error;  // kinetic + potential - the same at the start - work of the torques, springs among them, and of friction
 };
 
 // An array of a table: an entry a row, of that shape; empty: one number.

@@ -35,6 +35,12 @@ std::string vector_text(const std::vector<double>& values) {
   return text + ")";
 }
 
+// Of gains in the space of the task: what of the two acts.
+std::string drive_words(const std::vector<double>& kp, const std::vector<double>& kd) {
+  const auto acts = [](const std::vector<double>& gains) { return std::ranges::any_of(gains, [](double gain) { return gain != 0; }); };
+  return acts(kp) && acts(kd) ? "a spring and a damper" : acts(kd) ? "a damper" : "a spring";
+}
+
 // What it is made of, in the order in which it is added.
 std::string control_words(const Control& control, const std::string& end_effector) {
   std::vector<std::string> parts;
@@ -42,7 +48,7 @@ std::string control_words(const Control& control, const std::string& end_effecto
   if (!control.inverse_of.empty()) parts.emplace_back("the torques that a recorded motion takes");
   if (control.pd) parts.emplace_back("springs and dampers of the joints (pd)");
   if (control.computed_torque) parts.emplace_back("computed torque");
-  if (control.task) parts.push_back("a spring and a damper at " + (control.task->frame.empty() ? end_effector : control.task->frame));
+  if (control.task) parts.push_back(drive_words(control.task->kp, control.task->kd) + " at " + (control.task->frame.empty() ? end_effector : control.task->frame));
   if (control.gravity_compensation) parts.emplace_back("gravity compensation");
   if (!control.plus.empty()) {
     std::vector<std::string> texts;
@@ -159,10 +165,11 @@ void add_events(std::vector<Moment>& moments, const RunReport& run, const std::s
 
 // What `annotate:` says, formulas as they are written.
 void add_words(std::vector<Moment>& moments, const FilmReport& report) {
-  const RunReport& first = report.panels.front();
+  const std::vector<RunEvents> events = events_of(report.runs);
   for (const AnnotationEntry& entry : report.film().scene.annotate) {
-    const auto at = instant_of(entry, first.prepared.scene.events, first.trajectory.events);
-    if (!at || *at > first.trajectory.end_time) continue;
+    const auto at = instant_of(entry, events);
+    const std::size_t panel = std::min(std::size_t(entry.panel), report.panels.size()) - 1;
+    if (!at || *at > report.panels[panel].trajectory.end_time) continue;
     moments.push_back({*at, in_plain_words(entry.text), std::max(entry.hold, kCaptionSeconds)});
   }
 }

@@ -22,7 +22,7 @@ std::span<const Name> names_of(MotionColumn) {
                                    {"qd", "of each freedom, rad/s or m/s"},
                                    {"qdd", "rad/s^2 or m/s^2"},
                                    {"tau", "as the run felt them, N m or N"},
-                                   {"energy", "kinetic, potential and their sum, J"},
+                                   {"energy", "kinetic, potential, of springs, and their sum, J"},
                                    {"work", "of torques, of springs, friction and pushes, too, since the start, J"},
                                    {"energy_error", "what the work of the torques does not explain, J"},
                                    {"x_G", "of the end effector along W, m"},
@@ -121,17 +121,20 @@ std::vector<double> accelerations_along(const Simulation& simulation, const Traj
   return all;
 }
 
-void add_energies(DataTable& table, const Chain& chain, const Trajectory& trajectory) {
-  Workspace ws(chain);
-  std::vector<double> kinetic, potential, total;
+void add_energies(DataTable& table, const Simulation& simulation, const Trajectory& trajectory) {
+  const SpringEnergy springs(simulation);
+  Workspace ws(simulation.chain);
+  std::vector<double> kinetic, potential, of_springs, total;
   for (int k = 0; k < trajectory.size(); ++k) {
-    const Energy energy = energy_of(chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
+    const Energy energy = energy_of(simulation.chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
     kinetic.push_back(energy.kinetic);
     potential.push_back(energy.potential);
-    total.push_back(energy.total());
+    of_springs.push_back(springs.at(trajectory.q_at(k)));
+    total.push_back(energy.total() + of_springs.back());
   }
   table.add("kinetic", "J", std::move(kinetic));
   table.add("potential", "J", std::move(potential));
+  if (springs.has_springs()) table.add("springs", "J", std::move(of_springs));
   table.add("energy", "J", std::move(total));
 }
 
@@ -198,7 +201,7 @@ void add_column(DataTable& table, MotionColumn column, const Simulation& simulat
     case MotionColumn::tau:
       return table.add("tau", torque_columns(chain), {std::size_t(chain.nv)}, torques_along(simulation, trajectory));
     case MotionColumn::energy:
-      return add_energies(table, chain, trajectory);
+      return add_energies(table, simulation, trajectory);
     case MotionColumn::work:
       return table.add("work", "J", trajectory.work);
     case MotionColumn::energy_error:

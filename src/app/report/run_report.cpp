@@ -270,7 +270,7 @@ FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
   const Camera& camera = pictures.camera();
   report.view = {1 / camera.scale, camera.project(Eigen::Vector3d::Zero())};
   const Scene& page = report.film().scene;
-  for (const Pause& one : pauses_of(page.annotate, report.film().panels.front().scene.events, runs[0].events))
+  for (const Pause& one : pauses_of(page.annotate, events_of(runs)))
     if (one.seconds > 0 && one.at <= end) report.pauses.push_back(one);
   return report;
 }

@@ -61,7 +61,7 @@ void add_missing_events(const Runs& runs, std::vector<std::string>& notes) {
       notes.push_back(film.scene.name + ": no slow motion about '" + entry.event + "', which does not happen");
   }
   for (const AnnotationEntry& entry : film.scene.annotate)
-    if (!instant_of(entry, events, runs[0].events))
+    if (!instant_of(entry, events_of(runs)))
       notes.push_back(film.scene.name + ": '" + entry.text + "' is not said, as '" + entry.event + "' does not happen");
 }
 

@@ -17,7 +17,7 @@ constexpr double kBeyondOthers = 1e3;
 constexpr double kRangesBeyond = 1, kLeastRange = 1e-3;
 constexpr int kMarkers = 5;  // along each curve
 constexpr const char* kNote = "each curve shows the largest error around each time";
-constexpr const char* kNoteOfEnergies = "kinetic and potential energy at the ends of steps";
+constexpr const char* kNoteOfEnergies = "kinetic and potential energy, and that of springs, at the ends of steps";
 
 CurveStyle style_of(const EnergyChart& data, std::size_t curve, const ChartLook& look) {
   const int index = data.curves[curve].look;

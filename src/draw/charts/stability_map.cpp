@@ -18,7 +18,7 @@ constexpr double kBarGap = 0.045, kBarWidth = 0.035, kBarToLabel = 0.016;
 constexpr int kBarSteps = 128;
 constexpr double kSwatch = 0.044, kSwatchToText = 0.012;
 constexpr double kDotOfCell = 0.16, kLargestDot = 0.0075, kDotEdge = 0.0022;  // radius: of the cell's shorter side, and at most
-constexpr double kHalo = 0.0085, kBoundaryLine = 0.0040;
+constexpr double kHalo = 0.0085, kBoundaryLine = 0.0040, kRoughLine = 0.0022;
 constexpr double kLabelPad = 0.010, kLabelDistance = 0.030;
 
 Axis value_axis(const StabilityMap& data) {
@@ -85,8 +85,9 @@ void draw_doubtful_dots(Picture& picture, const StabilityMap& data, const Rect& 
 
 void draw_boundary_line(Picture& picture, const PlotFrame& frame, const MapBoundary& boundary,
                         const Theme& theme) {
-  draw_curve(picture, frame, boundary.points, {theme.background, kHalo, Dash::solid, Marker::none}, theme);
-  draw_curve(picture, frame, boundary.points, {theme.ink, kBoundaryLine, Dash::solid, Marker::none}, theme);
+  const double width = boundary.is_rough ? kRoughLine : kBoundaryLine;
+  draw_curve(picture, frame, boundary.points, {theme.background, kHalo - kBoundaryLine + width, Dash::solid, Marker::none}, theme);
+  draw_curve(picture, frame, boundary.points, {theme.ink, width, boundary.is_rough ? Dash::dashed : Dash::solid, Marker::none}, theme);
 }
 
 // Even steps along the boundary inside the frame.

@@ -19,6 +19,7 @@ struct MapCell {
 struct MapBoundary {
   std::vector<Point> points;  // in the units of the axes
   std::string label;          // math notation: "omega h = 2"
+  bool is_rough = false;      // many cells are otherwise: it is thin and dashed
 };
 
 struct StabilityMap {

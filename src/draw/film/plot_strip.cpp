@@ -87,7 +87,9 @@ Axis value_axis(const StripData& data) {
   }
   if (!(low <= high)) low = 0, high = 1;
   const double size = std::max(std::abs(low), std::abs(high));
-  if (high - low <= kLeastSpan * size || size == 0) {
+  const bool is_constant = high - low <= kLeastSpan * size || size == 0;
+  const double constant = (low + high) / 2;
+  if (is_constant) {
     const double half = size > 0 ? 0.1 * size : 1;
     low -= half;
     high += half;
@@ -97,7 +99,10 @@ Axis value_axis(const StripData& data) {
   if (!data.angles && low > 0 && span < kShareOfSteady * high) low = 0;
   if (!data.angles && high < 0 && span < kShareOfSteady * -low) high = 0;
   const double air = kRangeAir * (high - low);
-  return {data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title, {}};
+  Axis axis{data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title, {}};
+  // Of a constant its number is what is to be read.
+  if (is_constant && size > 0 && !data.angles) axis.at = constant > 0 ? std::vector<double>{0, constant} : std::vector<double>{constant, 0};
+  return axis;
 }
 
 std::vector<std::string> labels_of(const StripData& data) {
@@ -201,13 +206,14 @@ double share_of_height(const StripData& data) {
 
 namespace {
 
-// One above the other, from the top down.
-void add_column(std::vector<Rect>& plots, const Rect& all, int count, const std::vector<double>& shares) {
+// One above the other, from the top down. Each has its title and numbers; what is left is shared.
+void add_column(std::vector<Rect>& plots, const Rect& all, int count, double text_scale, const std::vector<double>& shares) {
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += shares.empty() ? 1 : shares[std::size_t(i)];
+  const double room = all.height() - size::kGutter * (count - 1), words = std::min(kWordsOfPlot * text_scale, 0.6 * room / count);
   double y1 = all.y1;
   for (int i = 0; i < count; ++i) {
-    const double height = (all.height() - size::kGutter * (count - 1)) * (shares.empty() ? 1 : shares[std::size_t(i)]) / sum;
+    const double height = words + (room - count * words) * (shares.empty() ? 1 : shares[std::size_t(i)]) / sum;
     plots.push_back({all.x0, y1 - height, all.x1, y1});
     y1 -= height + size::kGutter;
   }
@@ -224,7 +230,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
   if (place == PlotPlace::stacked) {
     all.y1 = page.y0 + std::min(std::max(kShareStacked * page.height(), least_each) * count, kMostStacked * page.height());
     areas.scene.y0 = all.y1 + gap;
-    add_column(areas.plots, all, count, shares);
+    add_column(areas.plots, all, count, text_scale, shares);
     return areas;
   }
   if (place == PlotPlace::below) {
@@ -241,7 +247,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
   }
   all.x0 = page.x1 - beside * page.width();
   areas.scene.x1 = all.x0 - gap;
-  add_column(areas.plots, all, count, shares);
+  add_column(areas.plots, all, count, text_scale, shares);
   return areas;
 }
 

@@ -85,10 +85,11 @@ TextLine lay_out_within(const Fonts& fonts, const std::string& text, const TextS
 class Annotations : public Layer {
  public:
   explicit Annotations(const Stage& stage) : stage_(&stage) {
-    const StagedRun& first = stage.motions.front();
+    std::vector<RunEvents> panels;
+    for (const StagedRun& motion : stage.motions) panels.push_back({&motion.scene().events, &motion.trajectory().events});
     for (std::size_t i = 0; i < stage.page.annotate.size(); ++i) {
       const AnnotationEntry& entry = stage.page.annotate[i];
-      const std::optional<double> at = instant_of(entry, first.scene().events, first.trajectory().events);
+      const std::optional<double> at = instant_of(entry, panels);
       // What comes behind the last frame, as at the very end, is told on it.
       if (at) notes_.push_back({&entry, int(i) + 1, std::min(*at, stage.times.back()), lay_out(entry)});
     }

@@ -127,7 +127,7 @@ class Panel:
 
     @property
     def energy(self) -> NDArray[np.float64]:
-        """(n,) kinetic + potential energy, J; computed when first asked for."""
+        """(n,) kinetic + potential energy, and that of springs in the joints, J; computed when first asked for."""
         return self._native.energy(self._index, "total")
 
     @property

@@ -29,7 +29,7 @@ class AnnotatedRr : public ::testing::Test {
   }
 
   Film film() {
-    const FilmClock clock(2, {10, 1}, {}, pauses_of(scene.annotate, {}, {}));
+    const FilmClock clock(2, {10, 1}, {}, pauses_of(scene.annotate, {}));
     run = test::run_at(clock.frame_times(), motion);
     return Film(scene, {{scene, chain, run}}, run.t, fonts(), clock);
   }
