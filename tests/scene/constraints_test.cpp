@@ -173,6 +173,7 @@ TEST_F(SceneConstraints, JointsThatAStartDoesNotNameFollow) {
   const std::vector<double> up = prepared("start: {q: {joint1: 1}}\n").q0;
   const std::vector<double> other = prepared("start: {q: {joint1: 1, joint3: 120deg}}\n").q0;
   EXPECT_EQ(other[0], 1);
+  EXPECT_THAT(notices_, testing::Contains(AllOf(HasSubstr("; joint3, though named, stands at "), HasSubstr(" and not at 2.0944"), testing::Not(HasSubstr("joint1, though")))));
   EXPECT_NEAR(other[2], -up[2], 1e-9) << "the mirrored one has the same angle between the bars";
   // Feedback that does not know of the ties is told of.
   prepared("start: {q: {joint1: 1}}\ntorque: {computed_torque: {kp: 100, kd: 20, q: [1, 0, 0]}}\n");

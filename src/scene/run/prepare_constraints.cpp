@@ -121,6 +121,17 @@ std::string named_keys(const Chain& chain, const std::vector<double>& q, std::sp
   return keys;
 }
 
+// Of joints that the start names and that the ties, which leave fewer free, put elsewhere: "; joint2, though named, stands at .. and not at ..".
+std::string moved_words(const Chain& chain, std::span<const std::size_t> named, const std::vector<double>& before, const std::vector<double>& now) {
+  constexpr double kSeen = 1e-6;  // rad or m
+  std::string words;
+  for (const std::size_t i : named)
+    if (std::fabs(now[i] - before[i]) > kSeen)
+      words += "; " + chain.coordinate_names[i] + ", though named, stands at " + format_significant(now[i], 6) + " and not at " + format_significant(before[i], 6) +
+               ", as the constraints leave fewer joints free than are named";
+  return words;
+}
+
 // The pose on the constraints at which the joints that the start names stand as it says; where these are more than the ties leave free the
 // first of them do, and the last ones say about where. Nothing where it names none.
 std::optional<std::vector<double>> pose_of_named(const Scene& scene, const Simulation& simulation, const ConstraintSet& set, const Place& start) {
@@ -207,7 +218,7 @@ void prepare_constraints(Scene& scene, Simulation& simulation) {
                     "}` if it is meant, or name the joints that are to stand so, `start: {q: {" + chain.coordinate_names.front() + ": " +
                     format_significant(simulation.q0.front(), 6) + "}}`: the others follow",
                 start);
-  if (followed && q != simulation.q0) scene.notices.push_back("the joints whose angles the constraints decide follow: q = " + bracketed(q));
+  if (followed && q != simulation.q0) scene.notices.push_back("the joints whose angles the constraints decide follow: q = " + bracketed(q) + moved_words(chain, scene.start.named_q, simulation.q0, q));
   const bool follow = follow_named_rates(scene, set, cws, qd);
   if (follow) scene.notices.push_back("the rates that the start does not name follow: qd = " + bracketed(qd));
   const double rate = follow ? 0 : project_velocities(chain, ws, set, cws, q, qd);
