@@ -166,6 +166,30 @@ TEST(FilmOfToday, AsksWhereNamedPosesAndEventsAreNow) {
   EXPECT_TRUE(read_png(low).bgra == read_png(folder.file("now.png")).bgra);
 }
 
+// Sizes that a command line gives are remembered: of a slide, and of paper.
+TEST(FilmOfToday, KnowsTheSizeThatAPictureWasAskedFor) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nstart: {q: [1, 0]}\nduration: 0.2\nmethod: rk4\n");
+  fs::create_directory(folder.file("docs"));
+  ASSERT_EQ(run_program({"snapshot", scene, "--at", "0.1", "--width", "320", "--height", "180", "-o", folder.file("docs/a.png"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_program({"snapshot", scene, "--at", "0.1", "--width-mm", "84", "--dpi", "100", "-o", folder.file("docs/b.png"), "-o", folder.file("docs/c.pdf"), "--quiet"}).status, 0);
+  const auto asked = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"check", folder.file("docs"), "--today"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  EXPECT_EQ(asked().status, 0) << asked().out << asked().err;
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("a.png is what "), HasSubstr("b.png is what "), HasSubstr("c.pdf is what ")));
+  folder.write("a.yaml", read_whole_file(scene) + "title: T\n");
+  EXPECT_EQ(asked().status, 1);
+  RunOptions shell;
+  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
+  ASSERT_EQ(run_command({"sh", "-e", "-c", asked({"--commands"}).out}, shell).status, 0) << asked({"--commands"}).out;
+  EXPECT_EQ(asked().status, 0) << asked().out;
+  EXPECT_EQ(read_png(folder.file("docs/a.png")).width, 320);
+  EXPECT_EQ(read_png(folder.file("docs/b.png")).width, 331) << "84 mm at 100 dpi";
+}
+
 // What is gone comes back as it was: a picture with its instant, a film with its words.
 TEST(FilmOfToday, BringsBackPicturesOfTheirInstantsAndTexts) {
   const TemporaryFolder folder;

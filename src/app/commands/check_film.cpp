@@ -15,6 +15,7 @@
 #include "app/cli/streams.hpp"
 #include "app/commands/asked_films.hpp"
 #include "app/commands/comparison.hpp"
+#include "app/commands/paper_film.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
@@ -145,7 +146,9 @@ Today difference_of(const std::string& path, const Json& beside, const ClipMemor
 }
 
 // A picture is one of `snapshot`'s or a frame of `render`'s, which remember a little else.
-std::vector<ClipMemory> memories_today(const PreparedFilm& film, const std::string& path, const ClipMemory& remembered) {
+std::vector<ClipMemory> memories_today(PreparedFilm& film, const std::string& path, const ClipMemory& remembered) {
+  const PaperOptions paper = paper_of(remembered.audit.value(kPaper, Json()));
+  if (paper.is_given()) set_paper_page(film, paper, Fonts(families_of(film.scene)), true);
   Json at = remembered.audit.value("at", Json());
   std::vector<ClipMemory> memories{memory_of_film(film)};
   if (find_output_format(path, Shows::motion) != nullptr || !at.is_number()) return memories;
@@ -156,6 +159,8 @@ std::vector<ClipMemory> memories_today(const PreparedFilm& film, const std::stri
   if (at.get<double>() >= 0 && at.get<double>() <= film.scene.duration) memories.push_back(moment_at(film, at.get<double>(), fonts).memory);
   for (ClipMemory& memory : memories)
     if (!event.empty()) memory.audit[kAtEvent] = event;
+  for (ClipMemory& memory : memories)
+    if (paper.is_given()) memory.audit[kPaper] = to_json(paper);
   return memories;
 }
 
@@ -285,7 +290,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   if (is_table(path)) return table_of_today(asked, scene, common);
   const ClipMemory remembered = recall(path);
   if (!remembered.figure.is_null()) return figure_of_today(path, remembered);
-  const PreparedFilm film = film_behind(asked, scene, common);
+  PreparedFilm film = film_behind(asked, scene, common);
   std::vector<Today> found;
   for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, audit.json, remembered, memory, film));
   const auto count = [](const Today& one) { return one.words.size() + one.facts.size(); };
@@ -293,6 +298,8 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
   for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
   tell_remaking(nearest, asked, common, remembered.audit.value("at", Json()), word_of(remembered.audit, kAtEvent));
+  const std::vector<std::string> paper = paper_flags(paper_of(remembered.audit.value(kPaper, Json())));
+  if (!nearest.command.empty()) nearest.command.insert(nearest.command.begin() + 3, paper.begin(), paper.end());  // behind the scene
   return nearest;
 }
 

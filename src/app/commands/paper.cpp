@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/page/sheet.hpp"
 
 namespace chainreel {
@@ -60,6 +61,32 @@ void give_size(Video& video, const PaperPage& page) {
 
 double text_scale_on(const PaperPage& page, double text_scale) {
   return std::max(1.0, text_scale) * page.least_text / kSmallestText;
+}
+
+Json to_json(const PaperOptions& options) {
+  if (!options.is_given()) return nullptr;
+  Json json{{"width_mm", options.width_mm}};
+  if (options.height_mm != PaperOptions::kNotGiven) json["height_mm"] = options.height_mm;
+  if (options.dpi > 0) json["dpi"] = options.dpi;
+  return json;
+}
+
+PaperOptions paper_of(const Json& json) {
+  PaperOptions options;
+  const auto number = [&](const char* key, double otherwise) { return json.is_object() && json.contains(key) && json[key].is_number() ? json[key].get<double>() : otherwise; };
+  options.width_mm = number("width_mm", PaperOptions::kNotGiven);
+  options.height_mm = number("height_mm", PaperOptions::kNotGiven);
+  options.dpi = int(std::clamp(number("dpi", 0), 0.0, 1e6));
+  check_paper(options, false);
+  return options;
+}
+
+std::vector<std::string> paper_flags(const PaperOptions& options) {
+  std::vector<std::string> flags;
+  if (options.is_given()) flags = {"--width-mm", format_shortest(options.width_mm)};
+  if (options.height_mm != PaperOptions::kNotGiven) flags.insert(flags.end(), {"--height-mm", format_shortest(options.height_mm)});
+  if (options.dpi > 0) flags.insert(flags.end(), {"--dpi", std::to_string(options.dpi)});
+  return flags;
 }
 
 }  // namespace chainreel

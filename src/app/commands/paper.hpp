@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/cli/command.hpp"
+#include "core/json.hpp"
 #include "scene/scene.hpp"
 
 namespace chainreel {
@@ -16,6 +18,13 @@ struct PaperOptions {
 
   bool is_given() const { return width_mm != kNotGiven; }
 };
+
+// As a picture remembers it in its audit, and back; of one that is not for paper, null and nothing given.
+inline constexpr const char* kPaper = "paper";
+Json to_json(const PaperOptions& options);
+PaperOptions paper_of(const Json& json);
+// The flags that give it.
+std::vector<std::string> paper_flags(const PaperOptions& options);
 
 // `default_height`: in words.
 void add_paper_options(Command& command, PaperOptions& options, const std::string& default_height);

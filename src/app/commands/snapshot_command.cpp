@@ -190,8 +190,14 @@ void snapshot_scene(const SnapshotOptions& options) {
   require_varied_read(options.vary, film.scene);
   say_notices(film.panels, options.common.quiet);
   Video& video = film.scene.video;
-  if (options.width > 0) video.width = options.width;
-  if (options.height > 0) video.height = options.height;
+  // As --set has it, so that the picture can be asked about and made again.
+  const auto give = [&film](int given, int& size, const char* key) {
+    if (given <= 0) return;
+    size = given;
+    film.scene.set.push_back(std::string(key) + "=" + std::to_string(given));
+  };
+  give(options.width, video.width, "video.width");
+  give(options.height, video.height, "video.height");
   const std::vector<double> instants = instants_asked(film, asked);
   const Fonts fonts(families_of(film.scene));
   if (options.paper.is_given()) set_paper_page(film, options.paper, fonts, options.common.quiet);
@@ -201,7 +207,10 @@ void snapshot_scene(const SnapshotOptions& options) {
   for (std::size_t i = 0; i < instants.size(); ++i) {
     Moment shown = moments.moment(instants[i]);
     if (!asked[i].event.empty()) shown.memory.audit[kAtEvent] = asked[i].event;
-    if (options.paper.is_given()) shown.memory.width_mm = options.paper.width_mm;
+    if (options.paper.is_given()) {
+      shown.memory.width_mm = options.paper.width_mm;
+      shown.memory.audit[kPaper] = to_json(options.paper);
+    }
     if (i == 0) tell_warnings(shown.warnings);
     if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
     pictures.write(i, shown.picture, fonts, shown.memory);

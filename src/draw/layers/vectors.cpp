@@ -187,6 +187,13 @@ double value_of(const WorldVector& vector) {
   return vector.value.norm();
 }
 
+// "tau_2 = -31 N m"; of what may point anywhere its size, "|lambda| = 4.2 N" of -lambda.
+std::string words_with_value(const WorldVector& vector) {
+  const bool has_way = vector.axis.norm() > 0 || vector.rail.norm() > 0;
+  const std::string symbol = vector.label.substr(vector.label.starts_with('-') ? 1 : 0);
+  return (has_way ? vector.label : "|" + symbol + "|") + " = " + format_significant(value_of(vector), 2) + " " + unit_of(vector.kind);
+}
+
 }  // namespace
 
 VectorPen::VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales)
@@ -194,9 +201,7 @@ VectorPen::VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, 
 
 const TextLine& VectorPen::label(const WorldVector& vector, double marks, bool is_cut) const {
   // An arrow that is cut does not say how large it is; that of a push has its size in its name.
-  const std::string words = is_cut && vector.kind != VectorKind::push
-                                ? vector.label + " = " + format_significant(value_of(vector), 2) + " " + unit_of(vector.kind)
-                                : vector.label;
+  const std::string words = is_cut && vector.kind != VectorKind::push ? words_with_value(vector) : vector.label;
   const auto key = std::tuple{vector.kind, words, marks};
   const auto known = labels_.find(key);
   if (known != labels_.end()) return known->second;
