@@ -342,6 +342,10 @@ TimeTable read_time_table(const std::string& path, const std::vector<std::string
   return time_table_of(read_table(path, names), wanted, freedoms, names);
 }
 
+std::string without_number(const std::string& name) {
+  return name.substr(0, name.find_last_not_of("0123456789") + 1);
+}
+
 std::string csv_words(const std::string& words) {
   std::string text = "\"";
   for (const char c : words) text += c == '"' ? "\"\"" : std::string(1, c == '\n' || c == '\r' ? ' ' : c);

@@ -43,6 +43,9 @@ struct ColumnName {
   friend bool operator==(const ColumnName&, const ColumnName&) = default;
 };
 
+// "qd" of "qd1".
+std::string without_number(const std::string& name);
+
 // Which columns are meant, where a table has names of its maker's own: of the time, and of a freedom's quantity; and their
 // units, where it does not tell them itself.
 struct ColumnNames {

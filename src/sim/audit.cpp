@@ -51,6 +51,21 @@ double SpringEnergy::at(ConstVec q) const {
   return energy;
 }
 
+RunEnergies energies_along(const Simulation& simulation, const Trajectory& trajectory, int samples) {
+  const SpringEnergy springs(simulation);
+  Workspace ws(simulation.chain);
+  RunEnergies energies;
+  energies.has_springs = springs.has_springs();
+  for (int k = 0; k < samples; ++k) {
+    const Energy energy = energy_of(simulation.chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
+    energies.kinetic.push_back(energy.kinetic);
+    energies.potential.push_back(energy.potential);
+    energies.springs.push_back(springs.at(trajectory.q_at(k)));
+    energies.total.push_back(energy.total() + energies.springs.back());
+  }
+  return energies;
+}
+
 EnergyBalance::EnergyBalance(const Simulation& simulation)
     : chain_(simulation.chain),
       ws_(simulation.chain),

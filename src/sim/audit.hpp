@@ -36,6 +36,13 @@ class SpringEnergy {
   std::vector<LinearDrive> springs_;
 };
 
+// The energies of a run's first `samples` samples, J; that of springs is part of the total.
+struct RunEnergies {
+  std::vector<double> kinetic, potential, springs, total;
+  bool has_springs = false;
+};
+RunEnergies energies_along(const Simulation& simulation, const Trajectory& trajectory, int samples);
+
 // Energy errors of single states of a run.
 class EnergyBalance {
  public:

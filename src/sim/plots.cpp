@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/format.hpp"
-#include "dynamics/energy.hpp"
 #include "sim/audit.hpp"
 #include "sim/drive/probe.hpp"
 #include "sim/system/chain_system.hpp"
@@ -141,20 +140,11 @@ PlotCurves columns(const std::vector<double>& table, const std::vector<std::stri
 }
 
 PlotCurves energies(const Simulation& simulation, const Trajectory& trajectory, int samples) {
+  RunEnergies all = energies_along(simulation, trajectory, samples);
   PlotCurves plot;
-  PlotCurve kinetic{"kinetic", {}}, potential{"potential", {}}, of_springs{"springs", {}}, total{"total", {}};
-  const SpringEnergy springs(simulation);
-  Workspace ws(simulation.chain);
-  for (int k = 0; k < samples; ++k) {
-    const Energy energy = energy_of(simulation.chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
-    kinetic.y.push_back(energy.kinetic);
-    potential.y.push_back(energy.potential);
-    of_springs.y.push_back(springs.at(trajectory.q_at(k)));
-    total.y.push_back(energy.total() + of_springs.y.back());
-  }
-  plot.curves = {std::move(kinetic), std::move(potential)};
-  if (springs.has_springs()) plot.curves.push_back(std::move(of_springs));
-  plot.curves.push_back(std::move(total));
+  plot.curves = {{"kinetic", std::move(all.kinetic)}, {"potential", std::move(all.potential)}};
+  if (all.has_springs) plot.curves.push_back({"springs", std::move(all.springs)});
+  plot.curves.push_back({"total", std::move(all.total)});
   return plot;
 }
 

@@ -18,12 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The files that it tells of.
-Json files_of(const Json& audit) {
-  const Json files = audit.is_object() ? audit.value(kAuditedFiles, Json()) : Json();
-  return files.is_array() ? files : Json::array();
-}
-
 // Which audits of a folder tell of a file that has none beside it. Each folder is read once.
 class AuditsOfFolders {
  public:
@@ -46,7 +40,7 @@ class AuditsOfFolders {
     for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
       const std::string path = entry->path().string();
       if (lower_case_ending(path) != ".json") continue;
-      for (const Json& one : files_of(audit_beside(path))) tellers[word_of(one, "file")].push_back(path);
+      for (const Json& one : audited_files_of(audit_beside(path))) tellers[word_of(one, "file")].push_back(path);
     }
   }
 
@@ -95,7 +89,7 @@ void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
   const Json json = audit_beside(audit);
   if (!json.is_object() || word_of(json, kScenePath).empty()) return;
   const fs::path folder = fs::path(audit).parent_path();
-  for (const Json& one : files_of(json)) {
+  for (const Json& one : audited_files_of(json)) {
     const std::string file = (folder / fs::path(word_of(one, "file")).filename()).string();
     std::error_code code;
     if (find_output_format(file) != nullptr && !fs::exists(fs::symlink_status(file, code)))

@@ -16,6 +16,7 @@
 #include "app/commands/asked_films.hpp"
 #include "app/commands/comparison.hpp"
 #include "app/commands/paper_film.hpp"
+#include "app/commands/remaking.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
@@ -120,10 +121,7 @@ struct Today {
   bool has_other_versions = false;
   std::optional<Error> trouble{};  // it cannot be told
   bool is_gone = false;          // an audit tells of it, and it is not there
-  bool has_audit = true;         // beside it, as what `render` made has
-  bool knows_set = true;         // what the command line changed when it was made
-  std::vector<std::string> set{};      // that, and what is given now
-  std::vector<std::string> command{};  // what makes it anew; none where that is not known
+  Remaking again{};
 
   bool is_same() const { return words.empty() && facts.empty() && !trouble && !is_gone; }
 };
@@ -157,62 +155,22 @@ std::vector<ClipMemory> memories_today(PreparedFilm& film, const std::string& pa
   memories.back().audit["at"] = at;
   const Fonts fonts(families_of(film.scene));
   if (at.get<double>() >= 0 && at.get<double>() <= film.scene.duration) memories.push_back(moment_at(film, at.get<double>(), fonts).memory);
-  for (ClipMemory& memory : memories)
+  for (ClipMemory& memory : memories) {
     if (!event.empty()) memory.audit[kAtEvent] = event;
-  for (ClipMemory& memory : memories)
     if (paper.is_given()) memory.audit[kPaper] = to_json(paper);
+  }
   return memories;
 }
 
-// What the command line changed when it was made, as its audit tells, or a picture of `snapshot` itself; null where neither does.
-Json set_of(const AskedFilm& asked) {
-  return asked.audit.json.is_object() ? asked.audit.json.value(kSet, Json::array()) : asked.set;
-}
-
-// That, and what is given now.
-std::vector<std::string> changes_of(const AskedFilm& asked, const CommonOptions& common) {
-  std::vector<std::string> set;
-  const Json told = set_of(asked);
-  for (const Json& one : told.is_array() ? told : Json::array())
-    if (one.is_string()) set.push_back(one);
-  for (const std::string& one : overrides_of(common)) set.push_back(one);
-  return set;
-}
-
-// A name that begins with - would be a flag.
-std::string typed_path(const std::string& path) {
-  return path.starts_with('-') ? "./" + path : path;
-}
-
-constexpr int kDigitsOfInstant = 9;  // of a frame's, of which rounding is no part
-
-// What makes it anew, as a shell's words. What has an audit beside it was made by `render`, a picture of one instant, too; one without by `snapshot`.
-std::vector<std::string> remaking_command(const Today& today, const Json& at, const std::string& event) {
-  const bool is_picture = find_output_format(today.path, Shows::motion) == nullptr && at.is_number();
-  std::vector<std::string> words{"chainreel", "render", typed_path(today.scene)};
-  if (is_picture && !today.has_audit) words[1] = "snapshot";
-  if (is_picture) words.insert(words.end(), {"--at", event.empty() ? format_significant(at.get<double>(), kDigitsOfInstant) + "s" : "event " + event});
-  for (const std::string& one : today.set) words.insert(words.end(), {"--set", one});
-  words.insert(words.end(), {"-o", typed_path(today.path), "--force"});
-  return words;
+// A torque that a program of the user's gave is in no file: without it, the scene shows something else, which has to replace nothing.
+void require_no_own_torque(const std::string& path, const Json& audit) {
+  const std::string words = torque_function_in(audit);
+  if (!words.empty()) throw Error(ExitCode::bad_input, "was driven by " + words + ", which no file holds: run again the program that made it", {path});
 }
 
 PreparedFilm film_behind(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
+  require_no_own_torque(asked.path, asked.audit.json);
   return load_film(scene.empty() ? scene_behind(asked) : scene, changes_of(asked, common), true, common.quiet);
-}
-
-// `at`: of a picture, its instant, or the event that it shows.
-void tell_remaking(Today& today, const AskedFilm& asked, const CommonOptions& common, const Json& at, const std::string& event = "") {
-  today.has_audit = asked.audit.json.is_object();
-  today.knows_set = set_of(asked).is_array();
-  today.set = changes_of(asked, common);
-  today.command = remaking_command(today, at, event);
-}
-
-// The table of a panel, f.2.csv, is made with all others of its page, by -o f.csv.
-std::string page_of_table(const std::string& path) {
-  const fs::path stem = fs::path(path).replace_extension();
-  return fs::path(stem).replace_extension().string() + fs::path(path).extension().string();
 }
 
 // A table of `render`: it remembers nothing, and is made again.
@@ -223,13 +181,12 @@ Today table_of_today(const AskedFilm& asked, const std::string& scene, const Com
   const OwnAudit& audit = asked.audit;
   const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = path, .scene = film.scene.file};
-  tell_remaking(found, asked, common, nullptr);
+  found.again = remaking_of(asked, film, Json::object(), common);
   const Runs runs(film);
   const std::string bytes = read_plain_file(path);
   const std::string page = page_of_table(path);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs.size() > 1 && panel_table_path(page, i, false) != path) continue;
-    if (runs.size() > 1) std::ranges::replace(found.command, path, page);
     if (bytes == table_bytes(motion_table(film.panels[i].simulation, runs[i]), table_format_of(path))) return found;
   }
   const Json records = audit.json.is_object() ? audit.json.value(kMechanisms, Json::array()) : Json::array();
@@ -243,8 +200,7 @@ Today table_of_today(const AskedFilm& asked, const std::string& scene, const Com
 Today gone_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = asked.path, .scene = film.scene.file, .is_gone = true};
-  tell_remaking(found, asked, common, asked.at);
-  if (is_table(asked.path) && film.panels.size() > 1) std::ranges::replace(found.command, asked.path, page_of_table(asked.path));
+  found.again = remaking_of(asked, film, {{"at", asked.at}}, common);
   return found;
 }
 
@@ -277,9 +233,9 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   if (compare_model_files(figure, {{"model_sha256", model.sha256()}, {"model_elements_sha256", model.elements_sha256()}}) == ModelFiles::other)
     found.words.emplace_back(kAnotherModel);
   for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
-  found.command = {"chainreel"};
-  for (const Json& word : moved.value("arguments", Json::array())) found.command.push_back(word.get<std::string>());
-  found.command.insert(found.command.end(), {"-o", typed_path(path), "--force"});
+  found.again.command = {"chainreel"};
+  for (const Json& word : moved.value("arguments", Json::array())) found.again.command.push_back(word.get<std::string>());
+  found.again.command.insert(found.again.command.end(), {"-o", typed_path(path), "--force"});
   return found;
 }
 
@@ -290,6 +246,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   if (is_table(path)) return table_of_today(asked, scene, common);
   const ClipMemory remembered = recall(path);
   if (!remembered.figure.is_null()) return figure_of_today(path, remembered);
+  require_no_own_torque(path, remembered.audit);
   PreparedFilm film = film_behind(asked, scene, common);
   std::vector<Today> found;
   for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, audit.json, remembered, memory, film));
@@ -297,9 +254,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
   for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
-  tell_remaking(nearest, asked, common, remembered.audit.value("at", Json()), word_of(remembered.audit, kAtEvent));
-  const std::vector<std::string> paper = paper_flags(paper_of(remembered.audit.value(kPaper, Json())));
-  if (!nearest.command.empty()) nearest.command.insert(nearest.command.begin() + 3, paper.begin(), paper.end());  // behind the scene
+  nearest.again = remaking_of(asked, film, remembered.audit, common);
   return nearest;
 }
 
@@ -324,8 +279,8 @@ void print_today(const Today& one) {
   for (const std::string& line : one.words) std::printf("  %s\n", line.c_str());
   if (one.words.empty())
     for (const std::string& line : one.facts) std::printf("  %s\n", line.c_str());
-  if (!one.is_same() && !one.knows_set) std::printf("  what --set changed when it was made is not known, as no audit lies beside it: give it again\n");
-  if (!one.is_same() && !one.command.empty()) std::printf("  made again by: %s\n", shell_line(one.command).c_str());
+  if (!one.is_same() && !one.again.knows_set) std::printf("  what --set changed when it was made is not known, as no audit lies beside it: give it again\n");
+  if (!one.is_same() && !one.again.command.empty()) std::printf("  made again by: %s\n", shell_line(one.again.command).c_str());
 }
 
 // One file is told of with its command. What of many is not as it should be is told in the report: here how many they are, and what makes all anew.
@@ -335,7 +290,7 @@ Problem stale_files(const std::vector<std::string>& asked, const std::vector<Tod
     if (!one.is_same() && !one.trouble) stale.push_back(&one);
   if (all.size() == 1) {
     const Today& one = *stale.front();
-    return {(one.is_gone ? "is gone" : "is not what " + one.scene + " shows today") + ": make it again" + (one.command.empty() ? "" : ", `" + shell_line(one.command) + "`"), {one.path}};
+    return {(one.is_gone ? "is gone" : "is not what " + one.scene + " shows today") + ": make it again" + (one.again.command.empty() ? "" : ", `" + shell_line(one.again.command) + "`"), {one.path}};
   }
   std::vector<std::string> words{"chainreel", "check"};
   for (const std::string& path : asked) words.push_back(typed_path(path));
@@ -352,12 +307,12 @@ Problem stale_files(const std::vector<std::string>& asked, const std::vector<Tod
 
 // For a shell nothing else is told: what is as it should be has no line.
 void print_command(const Today& one) {
-  if (!one.command.empty())
-    std::printf("%s%s\n", one.knows_set ? "" : "# what --set changed is not known, as no audit lies beside it: ", shell_line(one.command).c_str());
+  if (!one.again.command.empty())
+    std::printf("%s%s\n", one.again.knows_set ? "" : "# what --set changed is not known, as no audit lies beside it: ", shell_line(one.again.command).c_str());
 }
 
 Json report_of(const Today& one) {
-  return {{"file", one.path}, {"scene", one.scene}, {"set", one.set}, {"command", one.command}, {"is_same", one.is_same()}, {"changed", one.words}, {"audit_changed", one.facts},
+  return {{"file", one.path}, {"scene", one.scene}, {"set", one.again.set}, {"command", one.again.command}, {"is_same", one.is_same()}, {"changed", one.words}, {"audit_changed", one.facts},
           {"has_other_versions", one.has_other_versions}, {"is_gone", one.is_gone}, {"trouble", one.trouble ? Json(one.trouble->problems().front().message) : Json(nullptr)}};
 }
 
@@ -398,11 +353,11 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
     for (const Today& one : all) films.push_back(report_of(one));
     return Json{{"films", films}, {"passed_over", asked.passed_over}};
   }, [&] {
-    std::set<std::vector<std::string>> told;  // tables of one page are made by one command
+    std::set<std::vector<std::string>> told;  // files of one audit are made by one command
     for (const Today& one : all)
       if (!as_commands)
         print_today(one);
-      else if (!one.is_same() && told.insert(one.command).second)
+      else if (!one.is_same() && told.insert(one.again.command).second)
         print_command(one);
   });
   std::vector<Problem> troubles;

@@ -60,7 +60,7 @@ std::string FilesOfRun::audit_beside(const Target& target) {
 // What was cut off says nothing any more; the audit beside it does.
 bool FilesOfRun::is_told_of(const Target& target) const {
   const Json json = parse_json(read_plain_file(audit_beside(target), kLargestGrown));
-  const Json files = json.value(kAuditedFiles, Json::array());
+  const Json files = audited_files_of(json);
   const std::string name = fs::path(target.path).filename().string();
   return is_same(json) && std::any_of(files.begin(), files.end(), [&](const Json& one) { return one.value("file", "") == name; });
 }

@@ -22,11 +22,6 @@ namespace {
 const std::string kPeak = "peak_";
 constexpr const char* kGood = "good";  // of each row: 1, or 0 where the run failed
 
-// "qd" of "qd1".
-std::string without_number(const std::string& name) {
-  return name.substr(0, name.find_last_not_of("0123456789") + 1);
-}
-
 // "qd1" of "peak_qd1 [rad/s]".
 std::string plain_name(const std::string& column) {
   const std::string name = ColumnName(column).name;

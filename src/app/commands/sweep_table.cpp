@@ -70,6 +70,11 @@ Scene scene_of(SceneFile& file, const std::vector<std::string>& overrides, const
   return scene;
 }
 
+// The first of the plots that --last asked for, which stand behind the scene's own.
+std::size_t first_of_last(const SweepTableJob& job, const Simulation& simulation) {
+  return job.last.empty() ? 0 : simulation.plots->list.size() - job.last.size();
+}
+
 // The first run of the grid that can be made ready, from which the table has its columns: the same for all shares of it.
 struct FirstRun {
   Scene scene;
@@ -196,10 +201,8 @@ class RowMaker {
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
     row += "," + (run.size() > 0 ? state_text(run, run.size() - 1) + "," + energy_at_end(simulation, run) : no_state() + ",");
     for (const Peak& peak : peaks) row += "," + format_shortest(peak.value);
-    for (std::size_t i = 0; i < job_.last.size(); ++i) {
-      const std::size_t plot = simulation.plots->list.size() - job_.last.size() + i;
-      row += "," + (run.size() > 0 ? format_shortest(plot_value(simulation, plot, run, run.size() - 1)) : "");
-    }
+    for (std::size_t i = 0; i < job_.last.size(); ++i)
+      row += "," + (run.size() > 0 ? format_shortest(plot_value(simulation, first_of_last(job_, simulation) + i, run, run.size() - 1)) : "");
     std::vector<std::string> first(events_);
     for (int k = run.events.size() - 1; k >= 0; --k)
       first[std::size_t(run.events.event[std::size_t(k)])] = format_shortest(run.events.t[std::size_t(k)]);
@@ -328,8 +331,8 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   for (const Sweep& axis : job.grid.axes()) require_read(axis.key, first, "--over");
   const std::string states = state_names(simulation.chain);
   require_peaks(simulation, job.peaks, "--peaks");
-  for (std::size_t i = simulation.plots == nullptr ? 0 : simulation.plots->list.size() - job.last.size(), k = 0; k < job.last.size(); ++i, ++k)
-    if (!simulation.plots->list[i].value) throw Error(ExitCode::usage, "--last " + job.last[k] + ": a plot of that name has several curves: write an expression, like x_G or q1");
+  for (std::size_t i = 0; i < job.last.size(); ++i)
+    if (!simulation.plots->list[first_of_last(job, simulation) + i].value) throw Error(ExitCode::usage, "--last " + job.last[i] + ": a plot of that name has several curves: write an expression, like x_G or q1");
   const std::vector<std::string> peaks = names_of_peaks(simulation, job.peaks);
   for (const std::string& doubt : first.doubts) tell_warnings({first.name + ": " + doubt});
 

@@ -120,6 +120,15 @@ std::string word_of(const Json& json, const char* key) {
   return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
+std::string torque_function_in(const Json& audit) {
+  if (!audit.is_object()) return "";
+  std::string words = word_of(audit, "torque_function");
+  const Json panels = audit.value("panels", Json());
+  for (const Json& panel : panels.is_array() ? panels : Json::array())
+    if (words.empty()) words = word_of(panel, "torque_function");
+  return words;
+}
+
 ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& wanted,
                        const std::string& given) {
   std::error_code code;

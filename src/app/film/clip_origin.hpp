@@ -14,6 +14,9 @@ namespace chainreel {
 // it is taken.
 std::string word_of(const Json& json, const char* key);
 
+// What a program of the user's drove it with, "the Python function f", by its audit: of all panels the first; "" of others.
+std::string torque_function_in(const Json& audit);
+
 struct WantedFile {
   std::string path;    // relative to the folder that is sought
   std::string sha256;  // "": any

@@ -118,7 +118,7 @@ void count_own_frames(GalleryClip& clip) {
   clip.audit.erase("frames");
   const Json beside = audit_beside(clip.path);
   if (!beside.is_object()) return;
-  for (const Json& file : beside.value(kAuditedFiles, Json::array()))
+  for (const Json& file : audited_files_of(beside))
     if (word_of(file, "file") == fs::path(clip.path).filename().string() && file.contains("frames")) clip.audit["frames"] = file["frames"];
 }
 

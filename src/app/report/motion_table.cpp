@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "dynamics/constraints/constraint_set.hpp"
-#include "dynamics/energy.hpp"
 #include "dynamics/kinematics.hpp"
 #include "sim/audit.hpp"
 #include "sim/system/chain_system.hpp"
@@ -122,20 +121,11 @@ std::vector<double> accelerations_along(const Simulation& simulation, const Traj
 }
 
 void add_energies(DataTable& table, const Simulation& simulation, const Trajectory& trajectory) {
-  const SpringEnergy springs(simulation);
-  Workspace ws(simulation.chain);
-  std::vector<double> kinetic, potential, of_springs, total;
-  for (int k = 0; k < trajectory.size(); ++k) {
-    const Energy energy = energy_of(simulation.chain, ws, trajectory.q_at(k), trajectory.qd_at(k));
-    kinetic.push_back(energy.kinetic);
-    potential.push_back(energy.potential);
-    of_springs.push_back(springs.at(trajectory.q_at(k)));
-    total.push_back(energy.total() + of_springs.back());
-  }
-  table.add("kinetic", "J", std::move(kinetic));
-  table.add("potential", "J", std::move(potential));
-  if (springs.has_springs()) table.add("springs", "J", std::move(of_springs));
-  table.add("energy", "J", std::move(total));
+  RunEnergies all = energies_along(simulation, trajectory, trajectory.size());
+  table.add("kinetic", "J", std::move(all.kinetic));
+  table.add("potential", "J", std::move(all.potential));
+  if (all.has_springs) table.add("springs", "J", std::move(all.springs));
+  table.add("energy", "J", std::move(all.total));
 }
 
 // x, y, z and their rates of the end effector, a list each.
@@ -264,7 +254,7 @@ std::vector<MotionColumn> parse_columns(const std::string& text, const std::stri
   std::vector<MotionColumn> columns;
   for (const std::string& word : separated(text, ',')) {
     const std::optional<MotionColumn> column = value_named<MotionColumn>(word);
-    const std::string stem = word.substr(0, word.find_last_not_of("0123456789") + 1);
+    const std::string stem = without_number(word);
     if (!column && value_named<MotionColumn>(stem))
       throw Error(ExitCode::usage, option + ": " + word + " is one of " + stem + ": ask for " + stem + ", which has all of them");
     if (!column) throw Error(ExitCode::usage, option + ": each " + misnamed(names_of(MotionColumn{}), word));

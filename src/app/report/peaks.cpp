@@ -28,7 +28,7 @@ namespace {
 
 // "qd" of "qd2"; "" of what is no number of a column.
 std::string stem_of(const std::string& word) {
-  const std::string stem = word.substr(0, word.find_last_not_of("0123456789") + 1);
+  const std::string stem = without_number(word);
   return stem != word && value_named<MotionColumn>(stem) && !value_named<MotionColumn>(word) ? stem : "";
 }
 
@@ -174,7 +174,7 @@ PeaksOfRun simulate_for_peaks(const Simulation& simulation, const PeaksAsked& as
     look_closer(simulation, found.run, kLooks, [&](const Trajectory& seen) { return look_at(simulation, seen, columns, peaks); }, stop);
   const std::vector<std::string> names = names_in(simulation, columns);
   for (std::size_t i = 0; i < peaks.size(); ++i)
-    if (i >= names.size() || asked.hold(names[i])) found.peaks.push_back({peaks[i].value(), peaks[i].t()});
+    if (asked.hold(names[i])) found.peaks.push_back({peaks[i].value(), peaks[i].t()});
   return found;
 }
 

@@ -50,6 +50,11 @@ bool is_own(const fs::path& path) {
 
 }  // namespace
 
+Json audited_files_of(const Json& audit) {
+  const Json files = audit.is_object() ? audit.value(kAuditedFiles, Json()) : Json();
+  return files.is_array() ? files : Json::array();
+}
+
 Json audited_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const HashedBytes hashed = hash_of_stream(file, path);
@@ -93,7 +98,7 @@ OtherFiles others_audited(const std::string& path, const std::vector<std::string
       return json;
     };
     const bool is_same = shown(before) == shown(audit);
-    for (const Json& one : before.value(kAuditedFiles, Json::array())) {
+    for (const Json& one : audited_files_of(before)) {
       const fs::path file = fs::path(path).parent_path() / one.value("file", "");
       std::error_code code;
       if (std::find(files.begin(), files.end(), file.string()) != files.end() || !fs::is_regular_file(file, code)) continue;
@@ -112,7 +117,7 @@ OtherFiles others_audited(const std::string& path, const std::vector<std::string
 
 Json audit_without(const std::string& path, const std::vector<std::string>& files) {
   Json audit = audit_at(path), left = Json::array();
-  const Json told = audit.is_object() ? audit.value(kAuditedFiles, Json::array()) : Json::array();
+  const Json told = audited_files_of(audit);
   for (const Json& one : told) {
     const std::string file = (fs::path(path).parent_path() / one.value("file", "")).string();
     if (std::find(files.begin(), files.end(), file) == files.end()) left.push_back(one);
@@ -127,7 +132,7 @@ bool is_changed_since(const std::string& path) {
     const Json audit = audit_at(audit_path_of(path));
     if (audit.is_null()) return false;
     const Json now = audited_file(path);
-    for (const Json& one : audit.value(kAuditedFiles, Json::array()))
+    for (const Json& one : audited_files_of(audit))
       if (one.value("file", "") == now.value("file", "")) return one.value("sha256", "") != now.value("sha256", "");
     return false;
   } catch (const Error&) {

@@ -26,6 +26,8 @@ inline constexpr const char* kSidecarHashes = "sidecars_sha256";
 // they lie beside it. Throws Error (exit 3) where it cannot be read.
 inline constexpr const char* kAuditedFiles = "outputs";
 Json audited_file(const std::string& path);
+// What an audit says of its files; [] where it is none.
+Json audited_files_of(const Json& audit);
 // What an audit says of a clip's frames: frames, fps (15 or "30000/1001"), width, height, film_seconds.
 Json clip_facts(int width, int height, FrameRate fps, int frames);
 // The same of the frames that a smaller clip was made of, under this key, where the audit begins with such a clip's.

@@ -60,8 +60,9 @@ void add_missing_events(const Runs& runs, std::vector<std::string>& notes) {
     if (!entry.event.empty() && std::none_of(hits.begin(), hits.end(), is_its))
       notes.push_back(film.scene.name + ": no slow motion about '" + entry.event + "', which does not happen");
   }
+  const std::vector<RunEvents> of_panels = events_of(runs);
   for (const AnnotationEntry& entry : film.scene.annotate)
-    if (!instant_of(entry, events_of(runs)))
+    if (!instant_of(entry, of_panels))
       notes.push_back(film.scene.name + ": '" + entry.text + "' is not said, as '" + entry.event + "' does not happen");
 }
 

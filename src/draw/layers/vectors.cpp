@@ -180,18 +180,12 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
 
 namespace {
 
-// About the axis, along the rail; of what may point anywhere its size.
-double value_of(const WorldVector& vector) {
-  for (const Eigen::Vector3d& way : {vector.axis, vector.rail})
-    if (way.norm() > 0) return vector.value.dot(way);
-  return vector.value.norm();
-}
-
-// "tau_2 = -31 N m"; of what may point anywhere its size, "|lambda| = 4.2 N" of -lambda.
+// "tau_2 = -31 N m" about the axis or along the rail; of what may point anywhere its size, "|lambda| = 4.2 N" of -lambda.
 std::string words_with_value(const WorldVector& vector) {
-  const bool has_way = vector.axis.norm() > 0 || vector.rail.norm() > 0;
-  const std::string symbol = vector.label.substr(vector.label.starts_with('-') ? 1 : 0);
-  return (has_way ? vector.label : "|" + symbol + "|") + " = " + format_significant(value_of(vector), 2) + " " + unit_of(vector.kind);
+  const auto words = [&](const std::string& symbol, double value) { return symbol + " = " + format_significant(value, 2) + " " + unit_of(vector.kind); };
+  for (const Eigen::Vector3d& way : {vector.axis, vector.rail})
+    if (way.norm() > 0) return words(vector.label, vector.value.dot(way));
+  return words("|" + vector.label.substr(vector.label.starts_with('-') ? 1 : 0) + "|", vector.value.norm());
 }
 
 }  // namespace

@@ -180,17 +180,12 @@ WordPlan::Track& WordPlan::track_of(const MarkWord& word, int frame) {
   return tracks_[nearest];
 }
 
-WordPlan::Ground WordPlan::ground_of(const Rect& box, const std::vector<Obstacle>& near, bool insists, std::size_t& last) {
-  const auto decides = [&](std::size_t o) { return (insists || !near[o].may_yield) && touches(box, near[o]); };
-  const Ground worst = insists ? Ground::poor : Ground::taken;
-  if (last < near.size() && decides(last)) return worst;
+WordPlan::Ground WordPlan::ground_of(const Rect& box, const std::vector<Obstacle>& near, bool insists) {
   Ground ground = Ground::free;
-  for (std::size_t o = 0; o < near.size(); ++o) {
-    if (!touches(box, near[o])) continue;
-    if (insists || !near[o].may_yield) {
-      last = o;
-      return worst;
-    }
+  for (const Obstacle& one : near) {
+    if (!touches(box, one)) continue;
+    if (insists) return Ground::poor;
+    if (!one.may_yield) return Ground::taken;
     ground = Ground::poor;
   }
   return ground;
@@ -207,7 +202,7 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
       if (now.places.size() == most) break;
       const Rect box = moved_into(area_, wish);
       const bool is_inside = norm(center_of(box) - center_of(wish)) <= kLeavesWith;
-      const Ground ground = is_inside ? ground_of(box, near, now.insists, last_met_[{i, now.places.size()}]) : Ground::taken;
+      const Ground ground = is_inside ? ground_of(box, near, now.insists) : Ground::taken;
       now.places.push_back(box);
       now.grounds.push_back(ground);
       if (words[i].leader) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_leader(*words[i].leader, box, near));

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "draw/page/mark_labels.hpp"
@@ -54,15 +53,14 @@ class WordPlan {
   using Track = std::vector<Moment>;
 
   Track& track_of(const MarkWord& word, int frame);
-  // What lies there; of words that insist nothing takes it. `last`: the one that did so at the frame before, which is asked first.
-  static Ground ground_of(const Rect& box, const std::vector<Obstacle>& near, bool insists, std::size_t& last);
+  // What lies there; of words that insist nothing takes it.
+  static Ground ground_of(const Rect& box, const std::vector<Obstacle>& near, bool insists);
 
   Rect area_;
   double fps_, between_;
   std::vector<int> counts_;  // words of each frame
   std::vector<Track> tracks_;
   std::map<std::string, std::vector<std::size_t>> by_name_;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> last_met_;  // by word and place
 };
 
 }  // namespace chainreel

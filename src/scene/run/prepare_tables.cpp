@@ -16,11 +16,11 @@ constexpr double kSame = 1e-9;
 constexpr double kOtherUnit = 10;
 
 struct NamedControl {
-  const Control* control;
+  Control* control;
   std::size_t first, end;  // the freedoms that it drives
 };
 
-std::vector<NamedControl> controls_of(const Scene& scene, const Chain& chain) {
+std::vector<NamedControl> controls_of(Scene& scene, const Chain& chain) {
   std::vector<NamedControl> controls;
   if (scene.control) controls.push_back({&*scene.control, 0, std::size_t(chain.nv)});
   for (std::size_t i = 0; i < scene.torque.size(); ++i)
@@ -33,22 +33,22 @@ void say_once(std::vector<std::string>& list, const std::string& text) {
 }
 
 // A log of torques that begins behind the run's end has a clock of its own: as of a motion, t = 0 is its first row.
-void set_clock(Scene& scene, const Chain& chain, Control& control) {
-  if (control.csv.empty() || control.outside) return;
-  const double first = read_time_table(control.csv, {}, chain.coordinate_names, control.columns).t.front();
-  if (!(first >= scene.duration)) return;
+void set_clock(Scene& scene, Control& control, std::vector<double>& t) {
+  const double first = t.front();
+  if (control.outside || !(first >= scene.duration)) return;
   control.since_first_row = true;
+  for (double& one : t) one -= first;
   say_once(scene.notices, "t = 0 is the first row of " + control.csv + ", whose '" + control.columns.time.name + "' is " + format_shortest(first) +
                               " s, behind the end of the run: `outside: hold` or zero beside the table takes its times as they stand");
 }
 
-// What a table is taken for beyond its ends.
-void look_at_span(Scene& scene, const Chain& chain, const std::string& path, const std::optional<Outside>& outside,
-                  const std::string& what, const Place& place, const ColumnNames& columns = {}, bool since_first_row = false) {
-  if (path.empty() || outside == Outside::hold || outside == Outside::zero) return;
-  std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, columns).t;
-  if (const double first = t.front(); since_first_row)
-    for (double& one : t) one -= first;
+bool is_meant(const std::optional<Outside>& outside) {
+  return outside == Outside::hold || outside == Outside::zero;
+}
+
+// What a table of these instants is taken for beyond its ends.
+void look_at_span(Scene& scene, const std::string& path, const std::vector<double>& t, const std::optional<Outside>& outside,
+                  const std::string& what, const Place& place) {
   const bool late = t.front() > kSame * scene.duration, early = t.back() < (1 - kSame) * scene.duration;
   if (t.back() > kOtherUnit * scene.duration)
     say_once(scene.doubts, "the table " + path + " goes on until " + format_shortest(t.back()) + " s, of which the run of " + format_shortest(scene.duration) +
@@ -66,19 +66,26 @@ void look_at_span(Scene& scene, const Chain& chain, const std::string& path, con
 
 void look_at_controls(Scene& scene, const Chain& chain) {
   for (const NamedControl& one : controls_of(scene, chain)) {
-    const Control& control = *one.control;
+    Control& control = *one.control;
+    const auto look = [&](const std::string& path, const std::optional<Outside>& outside, const std::string& what) {
+      if (path.empty() || is_meant(outside)) return;
+      const bool is_log = &path == &control.csv;
+      std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, is_log ? control.columns : ColumnNames{}).t;
+      if (is_log) set_clock(scene, control, t);
+      look_at_span(scene, path, t, outside, what, control.place);
+    };
     const std::string torque = "the torque of its nearest row is", pose = "the pose of its nearest row is";
-    look_at_span(scene, chain, control.csv, control.outside, torque, control.place, control.columns, control.since_first_row);
-    look_at_span(scene, chain, control.inverse_of, control.outside, pose, control.place);
+    look(control.csv, control.outside, torque);
+    look(control.inverse_of, control.outside, pose);
     for (const std::optional<Feedback>& feedback : {control.pd, control.computed_torque})
-      if (feedback) look_at_span(scene, chain, feedback->trajectory, feedback->outside, pose, control.place);
+      if (feedback) look(feedback->trajectory, feedback->outside, pose);
     if (control.computed_torque && !scene.constraints.empty())
       say_once(scene.notices, "computed_torque takes M and h of the chain without its constraints: what these add disturbs it, by less the larger kp and kd are");
   }
 }
 
 // The state of the motions that give the torques, where there are any; of joints without one as it is.
-bool take_motion(const Scene& scene, const Chain& chain, std::vector<double>& q, std::vector<double>& qd,
+bool take_motion(Scene& scene, const Chain& chain, std::vector<double>& q, std::vector<double>& qd,
                  std::string& path) {
   bool found = false;
   for (const NamedControl& one : controls_of(scene, chain)) {
@@ -145,9 +152,6 @@ void prepare_motion(Scene& scene, Simulation& simulation) {
 
 void prepare_tables(Scene& scene, const Chain& chain) {
   take_start(scene, chain);
-  if (scene.control) set_clock(scene, chain, *scene.control);
-  for (TorqueEntry& entry : scene.torque)
-    if (entry.control) set_clock(scene, chain, *entry.control);
   look_at_controls(scene, chain);
 }
 
