@@ -12,10 +12,11 @@ typedef struct _cairo cairo_t;  // of <cairo.h>, which no other floor sees
 namespace chainreel {
 
 struct VectorPage {
-  double height = 540;  // of the page in its own units: pt in PDF, px in SVG
+  double height = 540;  // of the page in its own units: pt in PDF
   std::string title, description;
   std::string metadata;  // anything that is to travel with the page
   double width_mm = 0;   // above 0: as wide on paper, whatever the height
+  double height_px = 0;  // of an SVG, as it is shown where nobody scales it; 0: its own units
 };
 
 // All numbers are finite; others are left out, as by the canvas.

@@ -94,7 +94,8 @@ class SvgWriter {
     }
     enter_clip(-1);
     const auto side = [&](double length) {
-      return page.width_mm > 0 ? number(length * page.width_mm / width) + "mm" : number(length);
+      if (page.width_mm > 0) return number(length * page.width_mm / width) + "mm";
+      return number(page.height_px > 0 ? length * page.height_px / scale_ : length);
     };
     std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + side(width) + "\" height=\"" +
                       side(scale_) + "\" viewBox=\"0 0 " + number(width) + " " + number(scale_) +

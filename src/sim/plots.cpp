@@ -1,6 +1,7 @@
 #include "sim/plots.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/format.hpp"
@@ -100,6 +101,13 @@ std::string unit_of_name(const PlotSet& plots, const Chain& chain, const std::op
   return "";
 }
 
+// What stands in a plot beside others, and in no expression.
+void require_no_curve_alone(const PlotEntry& entry, const std::vector<std::string>& names) {
+  constexpr std::array<const char*, 4> kEnergies{"kinetic", "potential", "springs", "total"};
+  if (std::ranges::count(kEnergies, entry.value) > 0 && std::ranges::count(names, entry.value) == 0)
+    throw Error(ExitCode::bad_input, "'" + entry.value + "' is a curve of the plot `energy`, which has all of them: plot: [energy]", entry.place);
+}
+
 void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, const std::optional<Foot>& foot, int rows) {
   PlotSet::Plot plot;
   plot.quantity = value_named<PlotQuantity>(entry.value).value_or(PlotQuantity::expression);
@@ -108,6 +116,7 @@ void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, const 
   if (is_of_constraints && rows == 0)
     throw Error(ExitCode::bad_input, "there is no " + to_string(plot.quantity) + " to plot: the scene has no constraints", entry.place);
   if (plot.quantity == PlotQuantity::expression) {
+    require_no_curve_alone(entry, plots.probe.names());
     plot.value = Expression::parse(entry.value, plots.probe.names(), entry.place);
     if (plot.title.empty()) {
       const std::string unit = unit_of_name(plots, chain, foot, entry.value);

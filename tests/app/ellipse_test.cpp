@@ -139,6 +139,39 @@ TEST(EllipseAlong, TakesPosesFromTheMotion) {
   EXPECT_NE(report["poses"][0]["q"], report["poses"][4]["q"]);
 }
 
+// How often a word is written, halos left out.
+int count_of(const std::string& svg, const std::string& word) {
+  int count = 0;
+  for (std::size_t at = svg.find(word + "</tspan>"); at != std::string::npos; at = svg.find(word + "</tspan>", at + 1)) ++count;
+  return count / 2;
+}
+
+// A motion there and back: what looks the same is drawn once, with all instants.
+TEST(EllipseAlong, PosesThatLookTheSameAreOne) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.svg");
+  ASSERT_EQ(draw({"--along", "assets/scenes/arm_ellipsoid.yaml"}, file).status, 0);
+  for (const char* both : {"t = 0 s, t = 5 s", "t = 1 s, t = 4 s", "t = 2 s, t = 3 s"}) EXPECT_EQ(count_of(text_of(file), both), 1) << both;
+  EXPECT_EQ(count_of(text_of(file), "1.65 m/s"), 1);
+  // Negative control: of a motion that comes back nowhere each pose has its own name.
+  ASSERT_EQ(draw({"--along", "assets/scenes/rr_free.yaml", "--force"}, file).status, 0);
+  for (const char* own : {"t = 2 s", "t = 4 s", "t = 10 s"}) EXPECT_EQ(count_of(text_of(file), own), 1) << own;
+}
+
+// An axis that leads out of the page has one number, wherever it is cut; the page in pixels is the scene's.
+TEST(EllipseFilm, NumbersStandOnce) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.svg");
+  for (const char* at : {"7.9", "8.1", "8.2", "8.3", "8.5"}) {
+    ASSERT_EQ(run_program({"snapshot", "assets/scenes/rr_ellipse.yaml", "--at", at, "--width", "640", "--height", "360", "--quiet", "--force", "-o", file}).status, 0);
+    const std::string svg = text_of(file);
+    int numbers = 0;
+    for (std::size_t at = svg.find(" kg</tspan>"); at != std::string::npos; at = svg.find(" kg</tspan>", at + 1)) ++numbers;
+    EXPECT_EQ(numbers, 2 * 2 + 1) << at << ": of each axis one with its halo, and the scale's";
+    EXPECT_THAT(svg, HasSubstr("width=\"640\" height=\"360\" viewBox=\"0 0 960 540\""));
+  }
+}
+
 TEST(EllipseField, ReachesItsPoints) {
   const Json report = report_of({"models/rr.urdf", "--field", "--samples", "8"});
   // Cells of 0.5 m about +-0.25, +-0.75, ...: those within 2 m of the base.

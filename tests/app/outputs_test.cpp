@@ -541,6 +541,18 @@ TEST(Outputs, AQualityThatNoFileHasIsSaid) {
   EXPECT_THAT(said("b.mp4"), Not(HasSubstr("video.crf")));
 }
 
+TEST(Outputs, SizeAndRateHaveFlags) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.mp4");
+  ASSERT_EQ(run_program({"render", "assets/scenes/rr_free.yaml", "--quiet", "--set", "duration=0.2", "--width", "320", "--height", "180", "--fps", "30000/1001", "-o", file}).status, 0);
+  const Json audit = Json::parse(read_whole_file(folder.file("a.json")));
+  EXPECT_EQ(audit["width"], 320);
+  EXPECT_EQ(audit["height"], 180);
+  EXPECT_EQ(audit["fps"], "30000/1001");
+  EXPECT_EQ(run_program({"check", file, "--today"}).status, 0);
+  EXPECT_EQ(run_program({"render", "assets/scenes/rr_free.yaml", "--quiet", "--width", "321", "-o", folder.file("b.mp4")}).status, 3) << "is no even number";
+}
+
 // What the captions beside a film hold.
 std::string captions_with(const std::vector<std::string>& settings) {
   const TemporaryFolder folder;

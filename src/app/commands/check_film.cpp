@@ -15,6 +15,7 @@
 #include "app/cli/streams.hpp"
 #include "app/commands/asked_films.hpp"
 #include "app/commands/comparison.hpp"
+#include "app/commands/figure.hpp"
 #include "app/commands/paper_film.hpp"
 #include "app/commands/remaking.hpp"
 #include "app/film/clip_memory.hpp"
@@ -44,7 +45,7 @@ namespace fs = std::filesystem;
 // Keys of an audit that are no part of what is shown: versions and the model's file, which are told by themselves, where the
 // scene lies, and how the method was chosen that both have.
 bool is_beside(const std::string& key) {
-  constexpr std::array<std::string_view, 6> kKeys = {"versions", "model_sha256", "model_elements_sha256", "scene", "auto", "set"};
+  constexpr std::array<std::string_view, 7> kKeys = {"versions", "model_sha256", "model_elements_sha256", "scene", "auto", kSet, kMechanisms};
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
@@ -85,11 +86,12 @@ std::vector<Json> panels_of(const Json& audit) {
 
 constexpr const char* kAnotherModel = "the model is another one";
 
-// What of the models has changed: by the records in the audit beside the film, which name it; where there are none by what the film remembers.
+// What of the models has changed: by their records in the audit beside the film or in a picture by itself; where there are none by their hashes.
 std::vector<std::string> changed_models(const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
   const std::vector<Json> before = panels_of(film.audit), now = panels_of(today.audit);
   if (before.size() != now.size() || before.size() != prepared.panels.size()) return {};
-  const Json records = beside.is_object() ? beside.value(kMechanisms, Json::array()) : Json::array();
+  const Json& telling = beside.is_object() ? beside : film.audit;
+  const Json records = telling.is_object() ? telling.value(kMechanisms, Json::array()) : Json::array();
   std::vector<std::string> words;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (compare_model_files(before[i], now[i]) != ModelFiles::other) continue;
@@ -230,8 +232,11 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   const Json moved = figure_from(figure, origin);
   Today found{.path = path, .scene = word_of(moved, "model")};
   const ModelSource model(found.scene);
-  if (compare_model_files(figure, {{"model_sha256", model.sha256()}, {"model_elements_sha256", model.elements_sha256()}}) == ModelFiles::other)
-    found.words.emplace_back(kAnotherModel);
+  if (compare_model_files(figure, {{"model_sha256", model.sha256()}, {"model_elements_sha256", model.elements_sha256()}}) == ModelFiles::other) {
+    const Json before = figure.value(kMechanism, Json()), now = figure_mechanism(found.scene);
+    if (before.is_object() && now.is_object()) found.words = explain_models(before, now);
+    if (found.words.empty()) found.words.emplace_back(kAnotherModel);
+  }
   for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
   found.again.command = {"chainreel"};
   for (const Json& word : moved.value("arguments", Json::array())) found.again.command.push_back(word.get<std::string>());

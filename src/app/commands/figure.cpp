@@ -17,6 +17,7 @@
 #include "core/output_file.hpp"
 #include "draw/film/compose.hpp"
 #include "draw/page/house_style.hpp"
+#include "model/model_description.hpp"
 #include "model/model_source.hpp"
 #include "scene/text/scene_paths.hpp"
 #include "table/data_table.hpp"
@@ -186,7 +187,18 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title, co
   memory.figure["model"] = path_from(folder_of(command), model);
   memory.figure["model_sha256"] = sha256_of_file(model);
   memory.figure["model_elements_sha256"] = ModelSource(model).elements_sha256();
+  memory.figure[kMechanism] = figure_mechanism(model);
   return memory;
+}
+
+Json figure_mechanism(const std::string& model) try {
+  ModelOptions options;
+  options.meshes = false;
+  ModelDescription described = describe_model(ModelSource(model), options);
+  for (DescribedLink& link : described.links) link.visuals.clear(), link.collisions.clear();
+  return to_json(described);
+} catch (const Error&) {
+  return nullptr;
 }
 
 void remember_named_poses(ClipMemory& memory, const NamedPoses& poses) {

@@ -87,8 +87,9 @@ DataTable table_of(const Recorded& recorded, const InverseAlong& inverse) {
   return table;
 }
 
-Json report_of(const InverseAlong& inverse, const std::vector<NamedPeak>& peaks) {
-  Json json{{"rows", inverse.t.size()}, {"peaks", to_json(peaks)}};
+Json report_of(const RecordedMotion& motion, const InverseAlong& inverse, const std::vector<NamedPeak>& peaks) {
+  Json json{{"rows", inverse.t.size()}, {"peaks", to_json(peaks)}, {"coarse_torques", nullptr}};
+  if (const auto& coarse = motion.coarse_torques()) json["coarse_torques"] = {{"largest_difference", coarse->largest}, {"t", coarse->t}, {"freedom", coarse->freedom}};
   json["constraints"] = nullptr;
   if (!inverse.rows.empty())
     json["constraints"] = {{"rows", inverse.rows},
@@ -109,7 +110,7 @@ void run_inverse(const InverseOptions& options) {
   const DataTable found = table_of(recorded, inverse);
   const std::vector<NamedPeak> peaks = peaks_of(found);
   files.write(found);
-  files.tell(options.common, inverse.t.size(), report_of(inverse, peaks), words_of(peaks));
+  files.tell(options.common, inverse.t.size(), report_of(*recorded.motion, inverse, peaks), words_of(peaks));
 }
 
 }  // namespace

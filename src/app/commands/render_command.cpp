@@ -182,7 +182,7 @@ void add_render_command(CommandLine& app) {
   command->add_repeatable("-o,--output", options->outputs,
       "a .mp4, .webm, .mov, .gif, .apng, .png, .svg, .pdf, .csv or .npz file, or NAME_000000.png for a sequence "
       "(repeatable: each frame is drawn once for all), or a folder (default out/NAME.mp4)");
-  for (const FlagGroup flags : {FlagGroup::output, FlagGroup::look, FlagGroup::page, FlagGroup::view})
+  for (const FlagGroup flags : {FlagGroup::output, FlagGroup::size, FlagGroup::look, FlagGroup::page, FlagGroup::view})
     add_scene_flags(*command, options->common.flags, flags);
   command->add_option("--at", options->at, "instant that .png, .svg and .pdf show, in seconds (default 0)");
   command->add_option("--jobs", options->jobs, "threads that draw and encode (default: all cores); the bytes are the same")

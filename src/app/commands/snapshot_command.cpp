@@ -89,7 +89,7 @@ class Pictures {
  public:
   // `names` are those of files without ending; ignored where there is one picture. Begins to get a renderer ready.
   Pictures(const SnapshotOptions& options, OutputPlace place, const std::vector<std::string>& names, int width, int height)
-      : place_(std::move(place)) {
+      : place_(std::move(place)), height_(height) {
     if (names.size() > kMostPictures)
       throw Error(ExitCode::usage, "asks for " + std::to_string(names.size()) + " pictures; " +
                                        std::to_string(kMostPictures) +
@@ -112,7 +112,7 @@ class Pictures {
       return pixels;
     };
     for (const std::unique_ptr<OutputFile>& file : files_[i])
-      picture_format_of(file->path()).write_still(*file, {[&] { return picture; }, image, fonts}, memory);
+      picture_format_of(file->path()).write_still(*file, {[&] { return picture; }, image, height_, fonts}, memory);
     throw_if_interrupted();
   }
 
@@ -135,6 +135,7 @@ class Pictures {
 
  private:
   OutputPlace place_;
+  int height_;
   std::vector<std::vector<std::unique_ptr<OutputFile>>> files_;  // of each picture
   std::optional<ComingRenderer> renderer_;
   std::unique_ptr<Canvas> canvas_;

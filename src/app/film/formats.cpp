@@ -24,7 +24,9 @@ void write_png_still(const OutputFile& file, const StillView& view, const ClipMe
 }
 
 void write_svg_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
-  write_temporary(file, svg_text(view.picture(), view.fonts, memory.page()));
+  VectorPage page = memory.page();
+  page.height_px = view.height;
+  write_temporary(file, svg_text(view.picture(), view.fonts, page));
 }
 
 void write_pdf_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {

@@ -22,6 +22,7 @@ namespace chainreel {
 struct StillView {
   std::function<Picture()> picture;
   std::function<Image()> image;
+  int height;  // px
   const Fonts& fonts;
 };
 

@@ -131,7 +131,7 @@ void write_picture(const Picture& picture, int width, int height, const Fonts& f
                    bool overwrite, const ClipMemory& memory) {
   OutputFile output(path, overwrite);
   picture_format_of(path).write_still(
-      output, {[&] { return picture; }, [&] { return rasterise(picture, width, height, fonts); }, fonts}, memory);
+      output, {[&] { return picture; }, [&] { return rasterise(picture, width, height, fonts); }, height, fonts}, memory);
   throw_if_interrupted();
   output.commit();
 }

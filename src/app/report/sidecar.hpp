@@ -11,7 +11,7 @@
 
 namespace chainreel {
 
-// In audits alone, and not in what films remember: a record of each panel's model, and what the command line changed.
+// In audits and what pictures by themselves remember, but not films: a record of each panel's model, and what the command line changed.
 inline constexpr const char* kMechanisms = "mechanisms";
 inline constexpr const char* kTables = "tables";  // likewise, of what drives it
 inline constexpr const char* kSet = "set";

@@ -280,7 +280,7 @@ void Workshop::draw_stills(Pen& pen) {
   memory.audit["at"] = work_.still_at;
   for (const Output& output : outputs_)
     if (output.shows(Shows::still))
-      output.target.format->write_still(*output.files.front(), {picture, image, work_.fonts}, memory);
+      output.target.format->write_still(*output.files.front(), {picture, image, work_.scene.video.height, work_.fonts}, memory);
   pen.times.encode += pen.clock.lap();
   has_drawn();
 }

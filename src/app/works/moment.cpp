@@ -33,6 +33,9 @@ struct Moments::State {
         report(film_report(runs, pictures, frames_of_film(runs, instants.added))) {
     report.writes = Writes::pictures;
     memory = memory_of(report);
+    // No audit lies beside a picture by itself.
+    memory.audit[kSet] = film.scene.set;
+    for (const PreparedScene& panel : film.panels) memory.audit[kMechanisms].push_back(mechanism_record(panel));
     warnings = warning_lines(report);
   }
 
@@ -51,7 +54,6 @@ struct Moments::State {
     moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, runs[0]) : title_of_page(film.scene);
     moment.memory = memory;
     moment.memory.audit["at"] = moment.at;
-    moment.memory.audit[kSet] = film.scene.set;  // no audit lies beside a picture by itself
     moment.warnings = warnings;
     if (moment.at > last_end() + kSameInstant)
       moment.warnings.push_back(film.scene.name + ": every run had ended by t = " + format_significant(last_end(), 4) +

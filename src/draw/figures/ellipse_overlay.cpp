@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/figures/caption.hpp"
 #include "draw/figures/ellipse_figure.hpp"
 #include "draw/figures/pose_labels.hpp"
@@ -27,6 +30,9 @@ constexpr double kLeastRoom = 0.4;     // of the page for an ellipse, however ma
 constexpr double kInCell = 0.46;       // of a cell's side: the circle that holds what is seen of its ellipse
 constexpr double kMostWhole = 0.7;     // of a field's ellipses have their long axes inside of their cells
 constexpr double kCellOfFullLines = 0.2, kThinnestLines = 0.5;  // units of H; of the style guide's widths
+constexpr double kOpenReach = 0.2;     // of the room's shorter side: as far lead ellipses that are open, of several poses
+constexpr double kOpenBreadth = 0.25;  // of that: they are no broader to each side
+constexpr double kSamePlace = 0.006;   // units of H: poses whose links and ellipses are no farther apart are one
 constexpr double kSmallestCell = 0.02;  // units of H: below, ellipses cannot be read
 
 // The pose whose ellipse is nearest to a circle.
@@ -39,6 +45,18 @@ std::size_t roundest(const std::vector<Pose>& poses) {
   for (std::size_t i = 1; i < poses.size(); ++i)
     if (ratio(poses[i]) > ratio(poses[best])) best = i;
   return best;
+}
+
+// Of an ellipse that is open the longest axis that is not, 0 without one; nothing of others.
+std::optional<double> finite_of_open(const Pose& pose, EllipseReading reading) {
+  double longest = 0;
+  bool is_open = false;
+  for (const MassAxis& axis : pose.axes) {
+    const std::optional<double> length = semi_axis(axis, reading);
+    is_open = is_open || !length;
+    longest = std::max(longest, length.value_or(0));
+  }
+  return is_open ? std::optional(longest) : std::nullopt;
 }
 
 // Most of the long axes just fill their cells.
@@ -138,6 +156,8 @@ struct Overlay {
     if (part == EllipsePart::above) style.labels = &numbers;
     if (!options.shapes && !is_field()) style.hole = link_end(look_of(skeleton, camera, *options.theme));
     if (options.shapes) style.hides = robot_hides(*options.shapes, ws, camera, place);
+    const bool is_open = poses.size() > 1 && finite_of_open(pose, options.reading);
+    if (is_open) style.disc = kOpenReach * std::min(scene.width(), scene.height());
     int clip = kSceneClip;
     if (is_field()) {
       const double side = options.cell * camera.scale, half = side / 2;
@@ -152,14 +172,57 @@ struct Overlay {
     draw_mass_ellipse(picture, pose.axes, tip, camera.seen_at(place), style, clip);
   }
 
+  // What is seen of a pose: its numbers, and where on the page its links and its ellipse are.
+  struct Seen {
+    std::string numbers;
+    std::vector<Point> marks;
+    bool is_as(const Seen& other) const {
+      const auto is_near = [](Point a, Point b) { return norm(a - b) <= kSamePlace; };
+      return numbers == other.numbers && std::ranges::equal(marks, other.marks, is_near);
+    }
+  };
+  Seen seen_of(const Pose& pose) {
+    stand_in(pose);
+    Seen seen;
+    for (const MassAxis& axis : pose.axes) {
+      const std::optional<double> length = semi_axis(axis, options.reading);
+      seen.numbers += (length ? format_digits(*length, 3) : "inf") + " ";
+    }
+    for (const LinkSegment& link : skeleton.links)
+      for (const Eigen::Vector3d& end : {link.from, link.to}) seen.marks.push_back(camera.project(pose_of(ws, link.body) * end));
+    const Eigen::Vector3d tip = tip_position(chain, ws);
+    // An axis has no sign.
+    for (const Point axis : curve_of(pose, camera.seen_at(tip))) seen.marks.push_back(std::abs(axis.x) > std::abs(axis.y) ? std::copysign(1.0, axis.x) * axis : std::copysign(1.0, axis.y) * axis);
+    seen.marks.push_back(camera.project(tip));
+    return seen;
+  }
+
+  // Of poses that look the same, as of a motion there and back, the first, with the indices of all.
+  std::vector<std::vector<std::size_t>> looks() {
+    std::vector<std::vector<std::size_t>> groups;
+    std::vector<Seen> seen;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      Seen own = seen_of(poses[i]);
+      const auto same = std::ranges::find_if(seen, [&](const Seen& one) { return one.is_as(own); });
+      if (same != seen.end()) {
+        groups[std::size_t(same - seen.begin())].push_back(i);
+        continue;
+      }
+      groups.push_back({i});
+      seen.push_back(std::move(own));
+    }
+    return groups;
+  }
+
   // Each pose by its name, or its q, near its end effector; a line leads there where names stand closely.
-  void draw_labels(Picture& picture, const Rect& scene) {
+  void draw_labels(Picture& picture, const Rect& scene, const std::vector<std::vector<std::size_t>>& groups) {
     std::vector<NamedPlace> places;
     std::vector<Bar> bars;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (const std::vector<std::size_t>& group : groups) {
+      const std::size_t i = group.front();
       stand_in(poses[i]);
       const Eigen::Vector3d tip = tip_position(chain, ws);
-      places.push_back({camera.project(tip), label_of(i), curve_of(poses[i], camera.seen_at(tip))});
+      places.push_back({camera.project(tip), label_of(group), curve_of(poses[i], camera.seen_at(tip))});
       for (const LinkSegment& link : options.shapes ? std::vector<LinkSegment>() : skeleton.links)
         bars.push_back({camera.project(pose_of(ws, link.body) * link.from), camera.project(pose_of(ws, link.body) * link.to),
                         size::kLinkWidth / 2});
@@ -169,7 +232,7 @@ struct Overlay {
     std::vector<StandingWord> plan;
     for (const PlacedName& one : placed) plan.push_back(one.word);
     MarkLabels labels(plan);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
       MarkWord word{"pose", places[i].name, {placed[i].word.box}};
       if (placed[i].has_leader) word.leader = Leader{places[i].tip, options.theme->ink};
       labels.add(std::move(word));
@@ -198,10 +261,14 @@ struct Overlay {
     return found;
   }
 
-  TextLine label_of(std::size_t i) const {
+  // By the names of all that look so; else by the pose.
+  TextLine label_of(const std::vector<std::size_t>& group) const {
     const TextStyle style{Face::label, scaled(size::kAxis, options.text_scale), options.theme->ink, Align::left};
-    if (i < options.labels.size()) return lay_out_text(fonts, options.labels[i], style);
-    return lay_out_math(fonts, pose_notations(chain, poses[i].q).front(), style);
+    std::vector<std::string> names;
+    for (const std::size_t i : group)
+      if (i < options.labels.size()) names.push_back(options.labels[i]);
+    if (!names.empty()) return lay_out_text(fonts, joined(names), style);
+    return lay_out_math(fonts, pose_notations(chain, poses[group.front()].q).front(), style);
   }
 };
 
@@ -212,7 +279,11 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
   Overlay overlay(chain, poses, options, fonts);
   const Rect room = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts).scene;
   const double share = std::max(kLeastRoom, std::min(1.0, std::sqrt(double(kFewPoses) / double(poses.size()))));
-  overlay.scale = scale_for(poses, share * std::min(room.width(), room.height()), options.reading);
+  const double side = std::min(room.width(), room.height());
+  overlay.scale = scale_for(poses, share * side, options.reading);
+  for (const Pose& pose : poses)
+    if (const double open = finite_of_open(pose, options.reading).value_or(0); poses.size() > 1 && open * overlay.scale.per_unit() > kOpenBreadth * kOpenReach * side)
+      overlay.scale = scale_of(kOpenBreadth * kOpenReach * side / open, options.reading);
   overlay.fit(room);
   if (overlay.is_field()) {
     const double cell = options.cell * overlay.camera.scale;
@@ -231,21 +302,22 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
             {chain, overlay.skeleton, overlay.camera,
              look_of(overlay.skeleton, overlay.camera, *options.theme), options.shapes.get()},
             kSceneClip);
-  if (overlay.is_field())
+  if (overlay.is_field()) {
     overlay.draw_chain(picture, poses[roundest(poses)], kOnionSkin);
-  else {
-    for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room, EllipsePart::below);
-    for (const Pose& pose : poses) overlay.draw_chain(picture, pose, kOnionSkin);
-  }
-  const EllipsePart over = overlay.is_field() ? EllipsePart::whole : EllipsePart::above;
-  for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room, over);
-  if (!overlay.is_field() && !options.shapes)
-    for (const Pose& pose : poses) {
-      overlay.stand_in(pose);
+    for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room, EllipsePart::whole);
+  } else {
+    const std::vector<std::vector<std::size_t>> looks = overlay.looks();
+    for (const auto& look : looks) overlay.draw_ellipse(picture, poses[look.front()], room, EllipsePart::below);
+    for (const auto& look : looks) overlay.draw_chain(picture, poses[look.front()], kOnionSkin);
+    for (const auto& look : looks) overlay.draw_ellipse(picture, poses[look.front()], room, EllipsePart::above);
+    for (const auto& look : looks) {
+      if (options.shapes) break;
+      overlay.stand_in(poses[look.front()]);
       draw_end_effector(picture, overlay.camera.project(tip_position(chain, overlay.ws)),
                         look_of(overlay.skeleton, overlay.camera, *options.theme), kSceneClip);
     }
-  if (!overlay.is_field() && poses.size() > 1) overlay.draw_labels(picture, room);
+    if (poses.size() > 1) overlay.draw_labels(picture, room, looks);
+  }
   const int left_out = draw_clear_of(picture, 0, overlay.numbers, overlay.bodies(), room, *options.theme, kSceneClip, poses.size() > 1);
   if (numbers_left_out != nullptr) *numbers_left_out = left_out;
   Sheet inside = sheet;

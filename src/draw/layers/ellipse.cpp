@@ -144,6 +144,20 @@ void draw_in_disc(Picture& picture, Point center, Point u, Point v, const Ellips
   draw_axis(picture, center, std::min(b, r) * across, true, style.lines * size::kEllipseAxis, line, Fade{style.scene}, clip);
 }
 
+// A strip between the edges of the circle, with its signs there and the lengths of its other axes.
+void draw_open_in_disc(Picture& picture, const std::vector<PageAxis>& axes, Point center, Point d, const EllipseStyle& style, int clip) {
+  if (!style.draws_above()) return;
+  const double half_width = spread_of(axes).reach(normal_to(d)), r = style.disc;
+  draw_in_disc(picture, center, kBeyond * d, half_width * normal_to(d), style, clip);
+  if (!style.signs) return;
+  EllipseStyle until_edge = style;  // of a box whose corners are the strip's ends
+  const Point reach{r * std::abs(d.x), r * std::abs(d.y)}, low = center - reach, high = center + reach;
+  until_edge.scene = {std::max(style.scene.x0, low.x), std::max(style.scene.y0, low.y), std::min(style.scene.x1, high.x), std::min(style.scene.y1, high.y)};
+  draw_infinities(picture, center, d, half_width, until_edge, clip);
+  for (const PageAxis& axis : axes)
+    if (axis.length && norm(axis.v) > kNoLength) draw_length(picture, center, axis.v, *axis.length, 0, style, clip);
+}
+
 void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center, Point direction,
                const EllipseStyle& style, int clip) {
   const Point d = unit(direction), n = normal_to(d);
@@ -283,7 +297,7 @@ void draw_mass_ellipse(Picture& picture, const std::vector<MassAxis>& axes, Poin
     const Point d = unit(open);
     const auto closed = spread_of(projected).axes();
     if (norm(open) > 0)
-      draw_in_disc(picture, center, kBeyond * d, spread_of(projected).reach(normal_to(d)) * normal_to(d), style, clip);
+      draw_open_in_disc(picture, projected, center, d, style, clip);
     else if (norm(closed[0]) > kNoLength)
       draw_in_disc(picture, center, closed[0], closed[1], style, clip);
   } else if (all_open) {

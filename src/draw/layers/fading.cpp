@@ -216,18 +216,13 @@ namespace {
 constexpr double kSignAir = 0.008;       // units of H: about a sign
 constexpr double kAppearing = 0.02;  // units of H: an axis that leads out by so much has its length in full strength
 
-// The text with its middle as near to `at` as the scene allows.
-void put_near(Picture& picture, const TextLine& text, Point at, const EllipseStyle& style, int clip,
-              MarkLabels* labels) {
+// The text's ink with its middle as near to `at` as the scene allows.
+Rect box_near(const TextLine& text, Point at, const Rect& scene) {
   const Point half{text.box.width() / 2, text.box.height() / 2};
-  const Rect& scene = style.scene;
   const Point middle{
       std::clamp(at.x, std::min(scene.x0 + half.x, scene.x1), std::max(scene.x1 - half.x, scene.x0)),
       std::clamp(at.y, std::min(scene.y0 + half.y, scene.y1), std::max(scene.y1 - half.y, scene.y0))};
-  if (labels != nullptr)
-    labels->add(kLengthAtEdge, text, {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y});
-  else
-    draw_text(picture, text, {middle.x - half.x - text.box.x0, middle.y - half.y - text.box.y0}, clip);
+  return {middle.x - half.x, middle.y - half.y, middle.x + half.x, middle.y + half.y};
 }
 
 // Half of what a text takes along the unit vector d.
@@ -235,15 +230,37 @@ double half_along(const TextLine& text, Point d) {
   return std::abs(d.x) * text.box.width() / 2 + std::abs(d.y) * text.box.height() / 2;
 }
 
-void draw_along(Picture& picture, const TextLine& text, Point center, Point d, double half_width,
-                const EllipseStyle& style, int clip, MarkLabels* labels = nullptr) {
-  const double clear = half_along(text, d) + kSignAir, along = way_out(style.scene, center, d) - clear;
-  if (along > clear + size::kEndEffector) return put_near(picture, text, center + along * d, style, clip, labels);
+// Where a text stands at the edge of the scene that a line from the center along the unit vector d leaves it through.
+Rect box_at_edge(const TextLine& text, Point center, Point d, double half_width, const Rect& scene) {
+  const double clear = half_along(text, d) + kSignAir, along = way_out(scene, center, d) - clear;
+  if (along > clear + size::kEndEffector) return box_near(text, center + along * d, scene);
   // Too near to the edge: beside the band, on the side that has more room.
   const Point side = normal_to(d), foot = center + std::max(along, 0.0) * d;
-  const bool left = way_out(style.scene, foot, side) > way_out(style.scene, foot, -1 * side);
-  put_near(picture, text, foot + ((left ? 1 : -1) * (half_width + half_along(text, side) + kSignAir)) * side, style,
-           clip, labels);
+  const bool left = way_out(scene, foot, side) > way_out(scene, foot, -1 * side);
+  return box_near(text, foot + ((left ? 1 : -1) * (half_width + half_along(text, side) + kSignAir)) * side, scene);
+}
+
+void draw_at_edges(Picture& picture, const TextLine& text, Point center, Point d, double half_width, const EllipseStyle& style, int clip,
+                   MarkLabels* labels) {
+  for (const double side : {1.0, -1.0}) {
+    const Rect box = box_at_edge(text, center, side * d, half_width, style.scene);
+    if (labels != nullptr)
+      labels->add(kLengthAtEdge, text, box);
+    else
+      draw_text(picture, text, {box.x0 - text.box.x0, box.y0 - text.box.y0}, clip);
+  }
+}
+
+// Beside the band there, on either side.
+std::array<Rect, 2> boxes_beside_edge(const TextLine& text, Point center, Point d, double half_width, const Rect& scene) {
+  const Point side = normal_to(d), foot = center + std::max(way_out(scene, center, d) - half_along(text, d) - kSignAir, 0.0) * d;
+  const double off = half_width + half_along(text, side) + kSignAir;
+  return {box_near(text, foot + off * side, scene), box_near(text, foot - off * side, scene)};
+}
+
+// A film's number has one place at each frame: the plan moves it where the axis leads.
+bool has_one_place(const EllipseStyle& style) {
+  return style.labels != nullptr && style.unnamed == nullptr;
 }
 
 double strength_of_length(Point center, Point v, const EllipseStyle& style) {
@@ -275,19 +292,15 @@ Fade fade_before(const TextLine& text, double strength, Point d, Fade fade) {
 
 void draw_infinities(Picture& picture, Point center, Point d, double half_width, const EllipseStyle& style, int clip) {
   if (!style.signs) return;
-  const TextLine sign = infinity(style);
-  draw_along(picture, sign, center, d, half_width, style, clip);
-  draw_along(picture, sign, center, -1 * d, half_width, style, clip);
+  draw_at_edges(picture, infinity(style), center, d, half_width, style, clip, nullptr);
 }
 
 void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
                  std::span<const Point> others) {
   const bool has_no_numbers = style.labels == nullptr && style.unnamed != nullptr;  // a figure with panels too small for them
-  if (const double strength = strength_of_length(center, v, style); strength > 0 && !has_no_numbers) {
-    const TextLine text = text_of_length(length, strength, style);
-    draw_along(picture, text, center, unit(v), half_width, style, clip, style.labels);
-    draw_along(picture, text, center, -1 * unit(v), half_width, style, clip, style.labels);
-  }
+  const double strength = strength_of_length(center, v, style);
+  if (strength > 0 && !has_no_numbers && !has_one_place(style))
+    draw_at_edges(picture, text_of_length(length, strength, style), center, unit(v), half_width, style, clip, style.labels);
   if (style.labels == nullptr || !style.signs) return;
   // In a figure there is room for a line from the number to what it is of.
   const bool has_lines = style.unnamed != nullptr && !style.hides;
@@ -296,6 +309,9 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
     return;
   }
   MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
+  if (strength > 0 && has_one_place(style))
+    for (const double side : {1.0, -1.0})
+      for (const Rect& place : boxes_beside_edge(word.line, center, side * unit(v), half_width, style.scene)) word.places.push_back(place);
   const auto to_ends = [&](const Rect& place, Point axis) { 
     const Point ahead = center + axis, behind = center - axis;
     return std::min(norm(nearest_in(place, ahead) - ahead), norm(nearest_in(place, behind) - behind));
@@ -350,7 +366,7 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
 
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style) {
   const double strength = strength_of_length(center, v, style);
-  if (!(strength > 0)) return whole;
+  if (!(strength > 0) || has_one_place(style)) return whole;
   return fade_before(text_of_length(length, strength, style), strength, unit(v), whole);
 }
 

@@ -222,14 +222,16 @@ std::vector<Chapter> chapters() {
         Row("video.width", &Scene::video, &Video::width, "of the picture, even")
             .in("px")
             .within(16, kLargestSide)
+            .flag(FlagGroup::size, "--width")
             .of_page()
             .of_model(OfModel::picture),
         Row("video.height", &Scene::video, &Video::height, "of the picture, even")
             .in("px")
             .within(16, kLargestSide)
+            .flag(FlagGroup::size, "--height")
             .of_page()
             .of_model(OfModel::picture),
-        Row("video.fps", &Scene::video, &Video::fps, "frames a second: 60, 29.97, 30000/1001").in("1/s").of_page(),
+        Row("video.fps", &Scene::video, &Video::fps, "frames a second: 60, 29.97, 30000/1001").in("1/s").of_page().flag(FlagGroup::size, "--fps"),
         Row("video.preset", &Scene::video, &Video::preset, "what is written where no file is named")
             .absent("out/NAME.mp4; of layout transparent NAME.mov")
             .of_page()

@@ -19,7 +19,7 @@ enum class KeyOf {
   page,   // of the whole picture
 };
 // Commands take flags by these groups.
-enum class FlagGroup { none, output, look, page, view };
+enum class FlagGroup { none, output, size, look, page, view };
 // What commands that are given a model in a scene's place make of a key.
 enum class OfModel { no, mechanism, picture };
 

@@ -24,6 +24,8 @@ constexpr double kGap = 5;             // of the usual distance of rows
 constexpr double kDoubtfulNoise = 0.06;  // of the root of the mean square of accelerations
 constexpr double kDigits = 64 * std::numeric_limits<double>::epsilon();
 constexpr std::size_t kFewestForNoise = 12;  // rows
+constexpr std::size_t kFewestForCoarse = 9;  // rows: every other one leaves five, of which a spline has two pieces of its own
+constexpr double kDoubtfulTorque = 0.02;     // of the largest
 constexpr std::size_t kFewWords = 6;   // that are named
 const std::vector<std::string> kQuantities{"q", "qd", "qdd", "tau"};
 
@@ -295,6 +297,21 @@ std::vector<double> inverse_torques(const Chain& chain, const Reference& motion,
   return all;
 }
 
+// Every other row, from the first, of a motion without accelerations.
+TimeTable every_other_row(const TimeTable& motion) {
+  TimeTable coarse = motion;
+  const auto thin = [](auto& list) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];
+    list.resize(kept);
+  };
+  thin(coarse.t);
+  thin(coarse.lines);
+  for (auto& group : coarse.groups)
+    for (std::vector<double>& freedom : group) thin(freedom);
+  return coarse;
+}
+
 std::string words_of(const RecordedMotion::OwnTorques& own, const std::string& file) {
   return "torques are those of inverse dynamics, not those that " + file + " tells, which differ by " +
          format_significant(own.largest, 3) + " N m or N at most" +
@@ -339,7 +356,29 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
     recorded_torques_ = motion.groups[3];
     own_torques_ = own_torques_beside(inverse_torques(chain, *splines_, motion.t));
   }
+  if (!has_accelerations_ && rows() >= kFewestForCoarse) doubt_splines(chain, motion);
   remark_unused(*table_, motion, names, remarks_);
+}
+
+void RecordedMotion::doubt_splines(const Chain& chain, const TimeTable& motion) {
+  const TimeTable coarse = every_other_row(motion);
+  const std::vector<double> fine = inverse_torques(chain, *splines_, coarse.t);
+  const std::vector<double> other = inverse_torques(chain, *make_table_reference(coarse, table_->file), coarse.t);
+  const std::size_t n = freedoms_.size();
+  OwnTorques worst;
+  worst.freedom = freedoms_.front();
+  double size = 0;
+  for (std::size_t k = 0; k < fine.size(); ++k) {
+    const double off = std::fabs(fine[k] - other[k]);
+    size = std::max(size, std::fabs(fine[k]));
+    if (off > worst.largest) worst = {off, coarse.t[k / n], freedoms_[k % n]};
+  }
+  coarse_torques_ = worst;
+  if (worst.largest > kDoubtfulTorque * size)
+    remarks_.push_back("torques follow " + std::string(has_rates_ ? "derivatives of splines through qd" : "second derivatives of splines through q") +
+                       " and are known so well: splines through every other row of " + table_->file + " alone give others, by " + format_significant(worst.largest, 3) +
+                       " N m or N at most ('" + worst.freedom + "', t = " + format_significant(worst.t, 4) + " s), of " + format_significant(size, 3) +
+                       "; a table with " + (has_rates_ ? "qdd" : "qd and qdd") + " knows better");
 }
 
 std::optional<RecordedMotion::OwnTorques> RecordedMotion::own_torques_beside(const std::vector<double>& tau) const {

@@ -39,13 +39,17 @@ class RecordedMotion final : public Reference {
   bool has_accelerations() const { return has_accelerations_; }
   std::string sha256() const { return sha256_of(*table_); }  // of the table
 
-  // How far the table's own torques are at most from those of inverse dynamics at its rows; nothing where it has none.
+  // How far torques are at most from those of inverse dynamics at its rows.
   struct OwnTorques {
     double largest = 0;  // N m or N
     double t = 0;        // s
     std::string freedom;
   };
+  // The table's own; nothing where it has none.
   const std::optional<OwnTorques>& own_torques() const { return own_torques_; }
+  // Those of splines through every other row alone: of a smooth motion three times as far as the torques are off themselves, where
+  // accelerations jump about as far. Nothing where the table tells accelerations, or has few rows.
+  const std::optional<OwnTorques>& coarse_torques() const { return coarse_torques_; }
   // The same from other torques than those of the free chain, a row as long as the chain's freedoms at each of its rows.
   std::optional<OwnTorques> own_torques_beside(const std::vector<double>& tau) const;
 
@@ -56,6 +60,8 @@ class RecordedMotion final : public Reference {
   const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
+  void doubt_splines(const Chain& chain, const TimeTable& motion);
+
   std::shared_ptr<const Table> table_;
   std::unique_ptr<Reference> splines_;
   std::vector<double> t_;
@@ -63,7 +69,7 @@ class RecordedMotion final : public Reference {
   bool has_rates_ = false, has_accelerations_ = false;
   std::vector<std::string> freedoms_;
   std::vector<std::vector<double>> recorded_torques_;  // of each freedom, a number a row; none
-  std::optional<OwnTorques> own_torques_;
+  std::optional<OwnTorques> own_torques_, coarse_torques_;
   std::vector<std::string> remarks_, doubts_;
 };
 
