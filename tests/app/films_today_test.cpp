@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "app/library/scene_run.hpp"
 #include "core/json.hpp"
@@ -53,8 +54,8 @@ TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
   folder.write("rr.urdf", before);
   EXPECT_EQ(asked(film).status, 0);
   EXPECT_EQ(run_program({"check", scene, "--scene", scene}).status, 2);
-  ASSERT_EQ(run_program({"sheet", scene, "-o", folder.file("e.png"), "--quiet"}).status, 0);
-  EXPECT_THAT(asked(folder.file("e.png")).err, HasSubstr("is a figure"));
+  ASSERT_EQ(run_program({"chart", scene, "--methods", "rk4,verlet", "-o", folder.file("e.png"), "--quiet"}).status, 0);
+  EXPECT_THAT(asked(folder.file("e.png")).err, HasSubstr("is a figure that does not remember")) << "it measures";
 }
 
 // Pictures without an audit: scenes of the name that they remember are looked for, models of figures, too; and what is not known is said.
@@ -324,7 +325,7 @@ TEST(FilmOfToday, AsksTablesToo) {
   const std::string scene = folder.write("a.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.1\nmethod: rk4\n");
   for (const char* table : {"a.csv", "b.npz"})
     ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", folder.file("docs/" + std::string(table)), "--set", "duration=0.2"}).status, 0);
-  ASSERT_EQ(run_program({"simulate", scene, "--quiet", "-o", folder.file("docs/c.csv")}).status, 0);
+  folder.write("docs/c.csv", "t [s],q1 [rad]\n0,0\n");
   const auto asked = [&] { return run_program({"check", folder.file("docs"), "--today"}); };
   const ProgramResult same = asked();
   EXPECT_EQ(same.status, 0) << same.err;
@@ -332,7 +333,7 @@ TEST(FilmOfToday, AsksTablesToo) {
   EXPECT_THAT(same.err, HasSubstr("1 file is not asked about, as no audit beside it tells the scene: " + folder.file("docs/c.csv")));
   std::string heavier = model;
   const std::string mass = "<mass value=\"";
-  // Which command made it, and as exact as for what, nobody knows.
+  // Which command made it nobody knows.
   EXPECT_EQ(run_program({"check", folder.file("docs/c.csv"), "--today", "--scene", scene}).status, 3);
   heavier.replace(heavier.find(mass), mass.size(), mass + "1");
   folder.write("rr.urdf", heavier);
@@ -360,6 +361,74 @@ TEST(FilmOfToday, AsksTablesToo) {
   folder.write("rr.urdf", model);
   folder.write("docs/a.csv", read_whole_file(folder.file("docs/a.csv")) + "0\n");
   EXPECT_EQ(run_program({"check", folder.file("docs/a.csv"), "--today"}).status, 1);
+}
+
+// Tables of a command by itself have a record beside them; figures remember what the files of their commands said.
+TEST(FilmOfToday, AsksTablesOfSimulateAndFiguresOfScenes) {
+  const TemporaryFolder folder;
+  const std::string model = read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf"), mass = "<mass value=\"";
+  folder.write("rr.urdf", model);
+  const std::string page = "model: rr.urdf\nstart: {q: [1, 0]}\nmethod: rk4\n";
+  const std::string scene = folder.write("own.yaml", page + "duration: 0.1\n");
+  const auto made = [&](Words words, const std::string& output) {
+    words.insert(words.end(), {"--quiet", "-o", folder.file("docs/" + output)});
+    EXPECT_EQ(run_program(words).status, 0) << output;
+  };
+  made({"simulate", scene, "--set", "duration=0.2", "--columns", "t,q", "--every", "10ms"}, "t.csv");
+  made({"simulate", scene}, "u.npz");  folder.write("q.csv", "t,q1,q2\n0,0,0\n0.1,0.1,0\n0.2,0.3,0\n");
+  made({"inverse", folder.file("rr.urdf"), "--trajectory", folder.file("q.csv")}, "tau.csv");
+  made({"ellipse", "--along", scene}, "e.svg");
+  made({"sheet", scene, "--at", "0.1"}, "s.png");
+  made({"energy", scene, "--methods", "rk4,verlet"}, "n.png");
+  made({"simulate", scene, "--set", "compare=[{start: {q: [0, 0]}}, {start: {q: [1, 0]}}]"}, "v.csv");
+  const auto asked = [&](const Words& more = {}) {
+    Words words{"check", folder.file("docs"), "--today"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  const std::vector<std::string> all{"e.svg", "n.png", "s.png", "t.csv", "tau.csv", "u.npz", "v.1.csv", "v.2.csv"};
+  const ProgramResult same = asked();
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  for (const std::string& file : all) EXPECT_THAT(same.out, HasSubstr("docs/" + file + " is what "));
+  EXPECT_EQ(run_program({"check", folder.file("docs/t.csv")}).status, 0) << "as it was written";
+  std::map<std::string, std::string> before;
+  for (const std::string& file : all) before[file] = read_whole_file(folder.file("docs/" + file));
+
+  std::string heavier = model;
+  heavier.replace(heavier.find(mass), mass.size(), mass + "1");
+  folder.write("rr.urdf", heavier);
+  const ProgramResult stale = asked();
+  EXPECT_EQ(stale.status, 1);
+  for (const std::string& file : all) EXPECT_THAT(stale.out, HasSubstr("docs/" + file + " is NOT what "));
+  EXPECT_EQ(std::ranges::count(asked({"--commands"}).out, '\n'), 7) << "one for both panels";
+  EXPECT_THAT(stale.out, HasSubstr("link link1: mass 1 -> 11 kg"));
+  std::string commented = model;
+  folder.write("rr.urdf", commented.insert(commented.find("<robot"), "<!-- a comment\nof two lines -->\n"));
+  EXPECT_EQ(asked().status, 0) << asked().out;
+  // What a command line changed is kept: a duration of the scene's is none of t.csv's.
+  folder.write("own.yaml", page + "duration: 0.15\n");
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("t.csv is what "), HasSubstr("tau.csv is what "), HasSubstr("e.svg is NOT what "), HasSubstr("duration 0.1 -> 0.15")));
+  folder.write("q.csv", "t,q1,q2\n0,0,0\n0.1,0.1,0\n0.2,0.4,0\n");
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("tau.csv is NOT what "), HasSubstr("q.csv: is another one, by its hash")));
+  fs::remove(folder.file("docs/u.npz"));
+  EXPECT_THAT(asked().out, HasSubstr("u.npz is gone"));
+  RunOptions shell;
+  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
+  const std::string commands = asked({"--commands"}).out;
+  ASSERT_EQ(run_command({"sh", "-e", "-c", commands}, shell).status, 0) << commands;
+  EXPECT_EQ(asked().status, 0) << asked().out << asked().err;
+  EXPECT_TRUE(before["t.csv"] == read_whole_file(folder.file("docs/t.csv")));
+  EXPECT_FALSE(before["u.npz"] == read_whole_file(folder.file("docs/u.npz")));
+  folder.write("docs/t.csv", read_whole_file(folder.file("docs/t.csv")) + "9,9,9\n");
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("t.csv is NOT what "), HasSubstr("is not as it was written")));
+  // A file of somebody else's is no record.
+  folder.write("docs/w.csv.json", "{\"made_by\": \"me\"}");
+  EXPECT_EQ(run_program({"simulate", scene, "--quiet", "-o", folder.file("docs/w.csv")}).status, 6);
+  EXPECT_EQ(read_whole_file(folder.file("docs/w.csv.json")), "{\"made_by\": \"me\"}");
+  EXPECT_FALSE(fs::exists(folder.file("docs/w.csv")));
+  folder.write("docs/w.csv.json", R"({"made_by": {"arguments": ["simulate", 3], "files": [7]}, "outputs": [{"file": "w.csv", "sha256": "0"}]})");
+  folder.write("docs/w.csv", "t\n");
+  EXPECT_EQ(run_program({"check", folder.file("docs/w.csv"), "--today"}).status, 3);
 }
 
 // A torque that was the caller's function is in no file: without it the film would be replaced by one of another motion.

@@ -157,7 +157,7 @@ std::vector<Command::Word> Command::all_words() const {
     const bool is_flag = option->get_items_expected_max() == 0;
     for (const std::string& value : is_flag ? std::vector<std::string>{""} : option->results()) {
       if (!option->get_positional()) words.push_back({"--" + name});
-      if (!is_flag) words.push_back({value, option->get_positional() || name == "along" || name == "package"});
+      if (!is_flag) words.push_back({value, option->get_positional() || name == "along" || name == "trajectory" || name == "package"});
     }
   }
   return words;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/cli/streams.hpp"
+#include "app/commands/command_inputs.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
@@ -65,11 +66,6 @@ OwnAudit own_audit(const std::string& path, AuditsOfFolders& audits) {
   }
 }
 
-// Of a figure of one model that it knows again; "" of others.
-std::string model_of_figure(const Json& figure) {
-  return word_of(figure, "model_sha256").empty() ? "" : fs::path(word_of(figure, "model")).filename().string();
-}
-
 // What a film or picture remembers; nothing of tables, and of files that remember nothing.
 std::optional<ClipMemory> memory_in(const std::string& path) {
   if (is_table(path)) return std::nullopt;
@@ -81,13 +77,13 @@ std::optional<ClipMemory> memory_in(const std::string& path) {
 }
 
 bool tells_what_it_shows(const ClipMemory& memory) {
-  return memory.figure.is_null() || !model_of_figure(memory.figure).empty();
+  return memory.figure.is_null() || !first_file_of(memory.figure).empty();
 }
 
 // What an audit tells of that lay beside it, and does not any more.
 void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
   const Json json = audit_beside(audit);
-  if (!json.is_object() || word_of(json, kScenePath).empty()) return;
+  if (!json.is_object() || (word_of(json, kScenePath).empty() && !json.contains(kMadeBy))) return;
   const fs::path folder = fs::path(audit).parent_path();
   for (const Json& one : audited_files_of(json)) {
     const std::string file = (folder / fs::path(word_of(one, "file")).filename()).string();
@@ -103,7 +99,7 @@ class ScenesRemembered {
   // "" where there is none.
   std::string of(const std::string& path, const ClipMemory& memory) {
     try {
-      const std::string name = memory.figure.is_null() ? word_of(memory.audit, "scene") : model_of_figure(memory.figure);
+      const std::string name = memory.figure.is_null() ? word_of(memory.audit, "scene") : fs::path(first_file_of(memory.figure)).filename().string();
       if (name.empty() || fs::path(name).filename() != fs::path(name)) return "";
       return look_for(path, name, files_wanted_by(memory));
     } catch (const Error&) {
@@ -128,6 +124,17 @@ class ScenesRemembered {
 };
 
 }  // namespace
+
+std::string first_file_of(const Json& figure) {
+  if (!word_of(figure, "model_sha256").empty()) return word_of(figure, "model");
+  const Json words = figure.value("arguments", Json::array()), files = figure.value("files", Json::array());
+  if (!figure.contains(kInputs) || !words.is_array() || !files.is_array()) return "";
+  for (const Json& file : files) {
+    const std::size_t i = file.is_number_unsigned() ? file.get<std::size_t>() : 0;
+    if (i > 0 && i < words.size() && words[i].is_string() && words[i - 1] != Json("--package")) return words[i].get<std::string>();
+  }
+  return "";
+}
 
 bool is_table(const std::string& path) {
   return find_output_format(path, Shows::table) != nullptr;

@@ -25,6 +25,7 @@
 #include "model/doctor.hpp"
 #include "model/read_chain.hpp"
 #include "scene/text/write_scene.hpp"
+#include "sim/instant.hpp"
 
 namespace chainreel {
 namespace {
@@ -50,6 +51,17 @@ std::string kind_name(const Joint& joint) {
       return "floating";
   }
   return "";
+}
+
+// Whether no pose gives the end effector a finite mass along each direction, though there are joints enough, as where it lies on the last axis: told
+// of a pose that is as good as any.
+bool is_singular_everywhere(const Chain& chain) {
+  if (chain.end_effector < 0 || chain.has_floating) return false;
+  Workspace ws(chain);
+  std::vector<double> q;
+  for (int i = 0; i < chain.nq; ++i) q.push_back(0.4 + 0.3 * i);
+  const EffectiveMass mass = TipMass(chain).at(ws, q);
+  return !mass.singular_directions.empty() && std::ptrdiff_t(chain.nv) >= mass.mobility.size();
 }
 
 Json model_report(const Chain& chain) {
@@ -82,6 +94,7 @@ Json model_report(const Chain& chain) {
   json["constraints"] = nullptr;  // of a scene
   json["end_effector"] = nullptr;
   if (chain.end_effector >= 0) json["end_effector"] = chain.frames[std::size_t(chain.end_effector)].name;
+  json["singular_everywhere"] = is_singular_everywhere(chain);
   json["ends"] = Json::array();
   for (const int frame : chain.leaf_frames) json["ends"].push_back(chain.frames[std::size_t(frame)].name);
   return json;
@@ -145,7 +158,9 @@ void print_model(const Json& model) {
                 model["friction"]["law"].get<std::string>().c_str(),
                 format_significant(model["friction"]["creeps_under_three_quarters"].get<double>(), 2).c_str());
   if (!model["end_effector"].is_null())
-    std::printf("end effector: %s\n", model["end_effector"].get<std::string>().c_str());
+    std::printf("end effector: %s%s\n", model["end_effector"].get<std::string>().c_str(),
+                model["singular_everywhere"].get<bool>() ? ", which no joint moves along one direction or more, at no pose, as where it lies on the last axis: Lambda is infinite there; "
+                                                           "a frame at the tip has one, a link on a fixed joint in the URDF" : "");
   else
     std::printf("end effector: none of %s; choose one with `--set end_effector=NAME`\n",
                 words_of(model["ends"]).c_str());

@@ -16,8 +16,10 @@
 #include "app/commands/asked_films.hpp"
 #include "app/commands/comparison.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/command_inputs.hpp"
 #include "app/commands/paper_film.hpp"
 #include "app/commands/remaking.hpp"
+#include "app/commands/table_record.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
@@ -178,7 +180,7 @@ PreparedFilm film_behind(const AskedFilm& asked, const std::string& scene, const
 // A table of `render`: it remembers nothing, and is made again.
 Today table_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   if (!asked.audit.json.is_object())
-    throw Error(ExitCode::bad_input, "is a table that no audit beside it tells of: of those of `render` alone it can be told whether they would be the same today", {asked.path});
+    throw Error(ExitCode::bad_input, "is a table that no audit and no record beside it tells of, as `render`, `simulate` and `inverse` write them: whether it would be the same today cannot be told", {asked.path});
   const std::string& path = asked.path;
   const OwnAudit& audit = asked.audit;
   const PreparedFilm film = film_behind(asked, scene, common);
@@ -222,24 +224,57 @@ std::vector<std::string> changed_poses(const Json& figure, const std::string& mo
   return words;
 }
 
-// A figure of a model at poses depends on its file, and on one of poses, alone.
+std::vector<std::string> words_behind_program(const std::vector<std::string>& words) {
+  std::vector<std::string> all{"chainreel"};
+  all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
+
+// What the files of a command say now. Throws Error (bad input) where one cannot be read any more.
+Json inputs_today(const std::vector<std::string>& words, const std::vector<std::size_t>& files, const std::string& path) {
+  Json now = command_inputs(words, files);
+  if (!are_known(now))
+    throw Error(ExitCode::bad_input, "one of the files that made it cannot be read any more: `" + shell_line(words_behind_program(words)) + "` says which", {path});
+  return now;
+}
+
+// A table of a command by itself, by the record beside it.
+Today recorded_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
+  RecordedCommand made = recorded_command(asked.audit.json, asked.audit.folder, asked.path);
+  if (made.files.empty()) throw Error(ExitCode::bad_input, "was made of no file", {asked.path});
+  std::string& first = made.words[made.files.front()];
+  if (!scene.empty()) first = scene;
+  Today found{.path = asked.path, .scene = first, .is_gone = asked.is_gone};
+  for (const std::string& set : overrides_of(common)) made.words.insert(made.words.end(), {"--set", set});
+  const Json now = inputs_today(made.words, made.files, asked.path);
+  if (asked.audit.is_changed && !asked.is_gone) found.words.push_back("the file is not as it was written: `chainreel check " + asked.path + "`");
+  for (std::string& one : changed_inputs(asked.audit.json[kMadeBy].value(kInputs, Json()), now)) found.words.push_back(std::move(one));
+  found.again.command = words_behind_program(made.words);
+  found.again.command.insert(found.again.command.end(), {"-o", typed_path(made.output), "--force"});
+  return found;
+}
+
+// A figure depends on what its files say, and on poses that have names beside its model.
 Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   const Json& figure = remembered.figure;
-  if (word_of(figure, "model_sha256").empty())
-    throw Error(ExitCode::bad_input, "is a figure, which shows no run of a scene: `chainreel extract` tells the command that makes it again", {path});
+  const std::string model = word_of(figure, "model"), file = first_file_of(figure);
+  if (file.empty())
+    throw Error(ExitCode::bad_input, "is a figure that does not remember what its files said: `chainreel extract` tells the command that makes it again", {path});
   const ClipOrigin origin = find_nearest(path, files_wanted_by(remembered));
-  if (!origin.is_found) throw Error(ExitCode::bad_input, "shows " + word_of(figure, "model") + ", which is not here, nor in folders around", {path});
+  if (!origin.is_found) throw Error(ExitCode::bad_input, "shows " + file + ", which is not here, nor in folders around", {path});
   const Json moved = figure_from(figure, origin);
-  Today found{.path = path, .scene = word_of(moved, "model")};
-  const ModelSource model(found.scene);
-  if (compare_model_files(figure, {{"model_sha256", model.sha256()}, {"model_elements_sha256", model.elements_sha256()}}) == ModelFiles::other) {
-    const Json before = figure.value(kMechanism, Json()), now = figure_mechanism(found.scene);
-    if (before.is_object() && now.is_object()) found.words = explain_models(before, now);
-    if (found.words.empty()) found.words.emplace_back(kAnotherModel);
+  Today found{.path = path, .scene = model.empty() ? first_file_of(moved) : word_of(moved, "model")};
+  const std::vector<std::string> words = moved.value("arguments", std::vector<std::string>());
+  if (figure.contains(kInputs)) {
+    found.words = changed_inputs(figure[kInputs], inputs_today(words, figure.value("files", std::vector<std::size_t>()), path));
+  } else {
+    const ModelSource source(found.scene);
+    if (compare_model_files(figure, {{"model_sha256", source.sha256()}, {"model_elements_sha256", source.elements_sha256()}}) == ModelFiles::other)
+      found.words.emplace_back(kAnotherModel);
   }
-  for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
-  found.again.command = {"chainreel"};
-  for (const Json& word : moved.value("arguments", Json::array())) found.again.command.push_back(word.get<std::string>());
+  if (!model.empty())
+    for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
+  found.again.command = words_behind_program(words);
   found.again.command.insert(found.again.command.end(), {"-o", typed_path(path), "--force"});
   return found;
 }
@@ -247,6 +282,7 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
 Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const std::string& path = asked.path;
   const OwnAudit& audit = asked.audit;
+  if (audit.json.is_object() && audit.json.contains(kMadeBy)) return recorded_of_today(asked, scene, common);
   if (asked.is_gone) return gone_of_today(asked, scene, common);
   if (is_table(path)) return table_of_today(asked, scene, common);
   const ClipMemory remembered = recall(path);
@@ -267,7 +303,7 @@ void tell_passed_over(const std::vector<std::string>& files) {
   constexpr std::size_t kMostNames = 8;
   if (files.empty()) return;
   const std::vector<std::string> named(files.begin(), files.begin() + std::ptrdiff_t(std::min(files.size(), kMostNames)));
-  std::fprintf(stderr, "note: %s not asked about, as no audit beside %s the scene: %s%s (--scene names that of a film or picture; tables of `simulate` and `sweep`, sheets and charts cannot be asked)\n",
+  std::fprintf(stderr, "note: %s not asked about, as no audit beside %s the scene: %s%s (--scene names that of a film or picture; tables of `sweep` and charts, which measure, cannot be asked)\n",
                counted(files.size(), "file is", "files are").c_str(), files.size() == 1 ? "it tells" : "them tells", joined(named).c_str(),
                files.size() > kMostNames ? ", .." : "");
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/commands/command_inputs.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/film/target.hpp"
 #include "app/report/sidecar.hpp"
@@ -17,7 +18,6 @@
 #include "core/output_file.hpp"
 #include "draw/film/compose.hpp"
 #include "draw/page/house_style.hpp"
-#include "model/model_description.hpp"
 #include "model/model_source.hpp"
 #include "scene/text/scene_paths.hpp"
 #include "table/data_table.hpp"
@@ -159,6 +159,11 @@ std::size_t begin_of_path(const std::string& word, const std::string& before) {
   return before == "--package" ? word.find('=') + 1 : 0;
 }
 
+// What is measured is another number at each time.
+bool measures(const std::vector<std::string>& words) {
+  return !words.empty() && words.front() == "chart";
+}
+
 // The first file's, from which those of a figure are remembered: a name that a copy elsewhere has, too.
 std::string folder_of(const Command& command) {
   const std::vector<std::string> words = command.words();
@@ -176,7 +181,9 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title) {
     const std::size_t begin = begin_of_path(words[i], words[i - 1]);
     words[i].replace(begin, std::string::npos, path_from(folder, words[i].substr(begin)));
   }
-  return {title, {}, {}, {}, {{"arguments", words}, {"files", command.files()}}};
+  ClipMemory memory{title, {}, {}, {}, {{"arguments", words}, {"files", command.files()}}};
+  if (const Json inputs = measures(words) ? Json() : command_inputs(command.words(), command.files()); are_known(inputs)) memory.figure[kInputs] = inputs;
+  return memory;
 }
 
 ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
@@ -187,18 +194,7 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title, co
   memory.figure["model"] = path_from(folder_of(command), model);
   memory.figure["model_sha256"] = sha256_of_file(model);
   memory.figure["model_elements_sha256"] = ModelSource(model).elements_sha256();
-  memory.figure[kMechanism] = figure_mechanism(model);
   return memory;
-}
-
-Json figure_mechanism(const std::string& model) try {
-  ModelOptions options;
-  options.meshes = false;
-  ModelDescription described = describe_model(ModelSource(model), options);
-  for (DescribedLink& link : described.links) link.visuals.clear(), link.collisions.clear();
-  return to_json(described);
-} catch (const Error&) {
-  return nullptr;
 }
 
 void remember_named_poses(ClipMemory& memory, const NamedPoses& poses) {

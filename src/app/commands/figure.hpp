@@ -67,14 +67,10 @@ class FigureFiles {
   bool overwrite_;
 };
 
-// What a figure remembers that shows no scene: the words that made it, and the model and its poses where there are.
+// What a figure remembers that shows no scene: the words that made it, what its files say (kInputs) where each can be read by itself, but of charts, which measure, and the model and its poses where there are.
 ClipMemory memory_of_figure(const Command& command, const std::string& title);
 ClipMemory memory_of_figure(const Command& command, const std::string& title, const std::string& model,
                             const std::vector<std::vector<double>>& poses);
-// Links and joints of its model, without shapes: by them `check --today` names what changed. In its figure under this key; null of a
-// model that its file alone does not make one, but the command's options.
-inline constexpr const char* kMechanism = "mechanism";
-Json figure_mechanism(const std::string& model);
 // What poses were that have a name beside the model: "ready" and "joint1=0.1,joint2=0". In its figure as `named_poses`.
 using NamedPoses = std::map<std::string, std::string>;
 void remember_named_poses(ClipMemory& memory, const NamedPoses& poses);

@@ -6,6 +6,7 @@
 
 #include "app/cli/command.hpp"
 #include "app/cli/table_files.hpp"
+#include "app/commands/table_record.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/report/peaks.hpp"
@@ -26,6 +27,7 @@ struct InverseOptions {
   std::string trajectory;
   std::vector<std::string> outputs;
   std::string gravity;
+  const Command* command = nullptr;
   CommonOptions common;
 };
 
@@ -105,11 +107,13 @@ void run_inverse(const InverseOptions& options) {
   std::vector<std::string> outputs = options.outputs;
   if (outputs.empty()) outputs.push_back("out/" + std::filesystem::path(table).stem().string() + "_tau.csv");
   TableFiles files(outputs, options.common);
+  const TableRecords records(*options.command, outputs, outputs, options.common);
   const InverseAlong inverse = inverse_along(recorded.chain, recorded.constraints, *recorded.motion);
   tell_doubts(options, *recorded.motion, inverse);
   const DataTable found = table_of(recorded, inverse);
   const std::vector<NamedPeak> peaks = peaks_of(found);
   files.write(found);
+  records.write();
   files.tell(options.common, inverse.t.size(), report_of(*recorded.motion, inverse, peaks), words_of(peaks));
 }
 
@@ -119,6 +123,7 @@ void add_inverse_command(CommandLine& app) {
   auto options = std::make_shared<InverseOptions>();
   Command* command = app.add_subcommand(
       "inverse", "the torques that a motion takes, from CSV to CSV; of a scene while it presses on its constraints");
+  options->command = command;
   command
       ->add_option("file", options->file,
                    "a model (.urdf), or a scene (.yaml) for its mechanism with constraints and contact_force; "

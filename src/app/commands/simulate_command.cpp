@@ -11,6 +11,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/cli/table_files.hpp"
+#include "app/commands/table_record.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/prepared.hpp"
 #include "app/film/progress.hpp"
@@ -39,6 +40,7 @@ struct SimulateOptions {
   bool every_step = false;
   std::string every;  // time between rows; that of frames where it is empty
   int panel = 0;  // from 1; 0: all
+  const Command* command = nullptr;
   CommonOptions common;
 };
 
@@ -151,7 +153,9 @@ void run_simulate(const SimulateOptions& options) {
     std::vector<std::string> paths;
     for (const std::string& output : outputs) paths.push_back(panel_table_path(output, i, alone));
     TableFiles files(paths, options.common);
+    const TableRecords records(*options.command, paths, outputs, options.common);
     reports.push_back(simulate_panel(film, film.panels[i], files, wanted, options, alone));
+    records.write();
   }
   if (!options.common.json) return;
   if (alone) return print_json(reports.front());
@@ -170,6 +174,7 @@ void run_simulate(const SimulateOptions& options) {
 void add_simulate_command(CommandLine& app) {
   auto options = std::make_shared<SimulateOptions>();
   Command* command = app.add_subcommand("simulate", "run a scene and write its motion as a table: CSV, JSON or NPZ");
+  options->command = command;
   command->add_option("scene", options->scene, "a scene file").required().names_input();
   add_table_option(*command, options->outputs, "out/NAME.csv; of a scene with several panels NAME.1.csv, NAME.2.csv, ..");
   command

@@ -15,7 +15,7 @@ struct ClipMemory {
   std::string description;  // one sentence
   std::string scene;  // YAML of the effective scene; paths as found from its own folder, see clip_origin
   Json audit;         // nothing in it depends on the clock
-  // Null, or in place of a scene {arguments, files, model, model_sha256, model_elements_sha256, mechanism, poses}; `files` are the indices of those
+  // Null, or in place of a scene {arguments, files, model, model_sha256, model_elements_sha256, inputs, poses}; `files` are the indices of those
   // arguments that are paths, as found from the folder of the first.
   Json figure = nullptr;
 

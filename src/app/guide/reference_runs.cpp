@@ -119,11 +119,12 @@ std::string outputs_page() {
          "was asked for with -o and that the audit tells of; where that is a GIF or APNG, `drawn` has those of the frames that it was made\n"
          "of.\n"
          "`chainreel check out/rr.mp4` holds all of them against their SHA-256, and the audit against what the film remembers: exit code 1\n"
-         "where anything was changed since. `chainreel check out/ --today` asks of each film, picture and table of `render` there, and in its folders, whether its scene,\n"
+         "where anything was changed since. `chainreel check out/ --today` asks of each film, picture, figure and table there, and in its folders, whether its scene,\n"
          "model, tables, meshes and the program of today would make the same: exit code 1 and what has changed where they would not. The audit beside it\n"
          "tells which scene that is and what `--set` changed. Pictures of `snapshot` have none and say both themselves: the scene of that name is\n"
-         "taken that lies nearest to them, and of figures of a model its file; elsewhere `--scene rr.yaml` names it. Sheets, charts and tables of `simulate` are\n"
-         "not asked about, which is said. It simulates and draws nothing, so that a folder of films is held against its scenes in seconds.\n\n"
+         "taken that lies nearest to them, and of figures and sheets the files of their commands, of which they remember what they said; elsewhere `--scene rr.yaml` names\n"
+         "it. Beside a table of `simulate` and `inverse`, x.csv, lies the record x.csv.json, which says the same. Tables of `sweep` and charts, which measure, are not asked\n"
+         "about, which is said. It simulates and draws nothing, so that a folder of films is held against its scenes in seconds.\n\n"
          "What a command does not overwrite without `--force`: files outside of a folder named `out`.\n\n" +
          code_block("sh", "chainreel render rr_free -o out/rr.webm -o out/rr.gif\n");
 }

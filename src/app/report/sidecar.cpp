@@ -34,9 +34,17 @@ bool is_known_text(const fs::path& path, const char* words_of_older_versions) {
   return hashes.value(path.extension().string(), Json()) == Json(sha256_of(text));
 }
 
+// x.csv.json of a table that a command by itself made, see kMadeBy.
+bool is_record_of_table(const fs::path& path) {
+  std::error_code code;
+  if (!fs::is_regular_file(path, code)) return false;
+  const Json json = parse_json(read_plain_file(path.string(), kLargestSidecar));
+  return json.is_object() && json.contains(kMadeBy) && json.contains(kAuditedFiles);
+}
+
 bool is_own(const fs::path& path) {
   const std::string ending = path.extension().string();
-  if (ending == ".json") return !audit_at(path).is_null();
+  if (ending == ".json") return !audit_at(path).is_null() || is_record_of_table(path);
   if (ending == ".txt") return is_known_text(path, "times are those of the motion");
   if (ending == ".srt") return is_known_text(path, " --> ");
   if (ending == ".tex" || ending == ".csv") {

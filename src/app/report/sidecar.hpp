@@ -22,6 +22,9 @@ inline constexpr std::uintmax_t kLargestSidecar = std::uintmax_t(64) << 20;  // 
 // NAME.json says of the texts beside it which they are, by their hashes, under this key: {".txt": .., ".srt": ..}.
 inline constexpr const char* kSidecarHashes = "sidecars_sha256";
 
+// In records of tables, see commands/table_record: what made them.
+inline constexpr const char* kMadeBy = "made_by";
+
 // The files that NAME.json tells of, under this key: [{file, bytes, sha256}], of clips with clip_facts; names alone, since
 // they lie beside it. Throws Error (exit 3) where it cannot be read.
 inline constexpr const char* kAuditedFiles = "outputs";

@@ -1,0 +1,25 @@
+// What a figure or table of a model or of scenes was made of: by it `check --today` tells whether it would be the same now, and what changed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.hpp"
+
+namespace chainreel {
+
+// Under this key: what the files of a figure's or a table's command say.
+inline constexpr const char* kInputs = "inputs";
+
+// Of each file that the command names: of a scene its text with all defaults and the --set that are given, of its models and tables the hashes; of a model
+// its links and joints; of any other file its hash. `words` and `files`: the command's, with paths as found from here. Null in the place of one that cannot
+// be read by itself.
+Json command_inputs(const std::vector<std::string>& words, const std::vector<std::size_t>& files);
+
+// Whether all are known.
+bool are_known(const Json& inputs);
+
+// What differs, a sentence each, with the file's name where there are several.
+std::vector<std::string> changed_inputs(const Json& before, const Json& now);
+
+}  // namespace chainreel
