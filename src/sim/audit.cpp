@@ -132,6 +132,7 @@ Trajectory simulate_audited(const Simulation& simulation, std::span<const double
         stake.hold(state, work);
         seen.at_end = state.error;
         if (std::abs(seen.at_end) <= seen.largest_error) return;
+        seen.signed_error = seen.at_end;
         seen.largest_error = std::abs(seen.at_end);
         seen.time = t;
       }, between);

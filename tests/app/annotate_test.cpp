@@ -1,5 +1,6 @@
 // Words of `annotate:` as pixels: a formula with its leader line, held, in both themes.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -8,6 +9,8 @@
 #include "app/film/runs.hpp"
 #include "app/film/target.hpp"
 #include "support/picture_compare.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace chainreel {
 namespace {
@@ -51,6 +54,21 @@ TEST(Annotations, LookLikeTheirGoldens) {
     // Negative control: half a second behind the words the picture has none, and the arm has moved on.
     EXPECT_FALSE(pictures_agree(film.image(held), film.image(held - 60), kSame, name + "_control"));
   }
+}
+
+// As titles do: of the panel's own run.
+TEST(Annotations, TellTheTimeOfTheFallAndParameters) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.svg");
+  ASSERT_EQ(run_program({"snapshot", "assets/scenes/humanoid_fall.yaml", "--quiet", "--at", "1", "--set",
+                         "annotate=[{at: 1, text: \"over at {fall}, {tau} N m, {else}\", point: [0, 1]}]", "-o", file})
+                .status,
+            0);
+  const std::string page = read_whole_file(file), words = page.substr(page.find("</metadata>"));
+  const std::size_t title = words.find("falls in ");
+  ASSERT_NE(title, std::string::npos);
+  const std::string fall = words.substr(title + 9, words.find('<', title) - title - 9);
+  EXPECT_THAT(words, testing::HasSubstr("over at " + fall + ", 25 N m, {else}"));
 }
 
 }  // namespace

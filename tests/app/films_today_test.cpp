@@ -380,13 +380,14 @@ TEST(FilmOfToday, AsksTablesOfSimulateAndFiguresOfScenes) {
   made({"ellipse", "--along", scene}, "e.svg");
   made({"sheet", scene, "--at", "0.1"}, "s.png");
   made({"energy", scene, "--methods", "rk4,verlet"}, "n.png");
+  made({"sweep", scene, "--over", "start.q.1=0:1:3", "--over", "start.q.2=0:1:2", "--peaks", "qd"}, "g.csv");
   made({"simulate", scene, "--set", "compare=[{start: {q: [0, 0]}}, {start: {q: [1, 0]}}]"}, "v.csv");
   const auto asked = [&](const Words& more = {}) {
     Words words{"check", folder.file("docs"), "--today"};
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words);
   };
-  const std::vector<std::string> all{"e.svg", "n.png", "s.png", "t.csv", "tau.csv", "u.npz", "v.1.csv", "v.2.csv"};
+  const std::vector<std::string> all{"e.svg", "g.csv", "n.png", "s.png", "t.csv", "tau.csv", "u.npz", "v.1.csv", "v.2.csv"};
   const ProgramResult same = asked();
   EXPECT_EQ(same.status, 0) << same.out << same.err;
   for (const std::string& file : all) EXPECT_THAT(same.out, HasSubstr("docs/" + file + " is what "));
@@ -400,7 +401,7 @@ TEST(FilmOfToday, AsksTablesOfSimulateAndFiguresOfScenes) {
   const ProgramResult stale = asked();
   EXPECT_EQ(stale.status, 1);
   for (const std::string& file : all) EXPECT_THAT(stale.out, HasSubstr("docs/" + file + " is NOT what "));
-  EXPECT_EQ(std::ranges::count(asked({"--commands"}).out, '\n'), 7) << "one for both panels";
+  EXPECT_EQ(std::ranges::count(asked({"--commands"}).out, '\n'), 8) << "one for both panels";
   EXPECT_THAT(stale.out, HasSubstr("link link1: mass 1 -> 11 kg"));
   std::string commented = model;
   folder.write("rr.urdf", commented.insert(commented.find("<robot"), "<!-- a comment\nof two lines -->\n"));
@@ -429,6 +430,16 @@ TEST(FilmOfToday, AsksTablesOfSimulateAndFiguresOfScenes) {
   folder.write("docs/w.csv.json", R"({"made_by": {"arguments": ["simulate", 3], "files": [7]}, "outputs": [{"file": "w.csv", "sha256": "0"}]})");
   folder.write("docs/w.csv", "t\n");
   EXPECT_EQ(run_program({"check", folder.file("docs/w.csv"), "--today"}).status, 3);
+  // .. nor may one that came from elsewhere name a file to be written.
+  Json forged = Json::parse(read_whole_file(folder.file("docs/t.csv.json")));
+  for (const char* word : {"-o", "--output=x.csv", "--force"}) {
+    forged["made_by"]["arguments"].push_back(word);
+    folder.write("docs/t.csv.json", forged.dump());
+    const ProgramResult refused = run_program({"check", folder.file("docs/t.csv"), "--today", "--commands"});
+    EXPECT_EQ(refused.status, 3) << word;
+    EXPECT_EQ(refused.out, "");
+    forged["made_by"]["arguments"].erase(forged["made_by"]["arguments"].size() - 1);
+  }
 }
 
 // A torque that was the caller's function is in no file: without it the film would be replaced by one of another motion.

@@ -180,7 +180,7 @@ PreparedFilm film_behind(const AskedFilm& asked, const std::string& scene, const
 // A table of `render`: it remembers nothing, and is made again.
 Today table_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   if (!asked.audit.json.is_object())
-    throw Error(ExitCode::bad_input, "is a table that no audit and no record beside it tells of, as `render`, `simulate` and `inverse` write them: whether it would be the same today cannot be told", {asked.path});
+    throw Error(ExitCode::bad_input, "is a table that no audit and no record beside it tells of, as `render`, `simulate`, `inverse` and `sweep` write them: whether it would be the same today cannot be told", {asked.path});
   const std::string& path = asked.path;
   const OwnAudit& audit = asked.audit;
   const PreparedFilm film = film_behind(asked, scene, common);
@@ -224,8 +224,12 @@ std::vector<std::string> changed_poses(const Json& figure, const std::string& mo
   return words;
 }
 
-std::vector<std::string> words_behind_program(const std::vector<std::string>& words) {
+// What a command writes is never among the words that are remembered: a file that came from elsewhere could name any of the user's.
+std::vector<std::string> words_behind_program(const std::vector<std::string>& words, const std::string& path) {
   std::vector<std::string> all{"chainreel"};
+  for (const std::string& word : words)
+    if (word.starts_with("-o") || word.starts_with("--output") || word.starts_with("--force"))
+      throw Error(ExitCode::bad_input, "remembers a command that says where to write, which no program of ours does: it was changed by hand", {path});
   all.insert(all.end(), words.begin(), words.end());
   return all;
 }
@@ -234,7 +238,7 @@ std::vector<std::string> words_behind_program(const std::vector<std::string>& wo
 Json inputs_today(const std::vector<std::string>& words, const std::vector<std::size_t>& files, const std::string& path) {
   Json now = command_inputs(words, files);
   if (!are_known(now))
-    throw Error(ExitCode::bad_input, "one of the files that made it cannot be read any more: `" + shell_line(words_behind_program(words)) + "` says which", {path});
+    throw Error(ExitCode::bad_input, "one of the files that made it cannot be read any more: `" + shell_line(words_behind_program(words, path)) + "` says which; a scene that lies elsewhere is named by --scene", {path});
   return now;
 }
 
@@ -249,7 +253,7 @@ Today recorded_of_today(const AskedFilm& asked, const std::string& scene, const 
   const Json now = inputs_today(made.words, made.files, asked.path);
   if (asked.audit.is_changed && !asked.is_gone) found.words.push_back("the file is not as it was written: `chainreel check " + asked.path + "`");
   for (std::string& one : changed_inputs(asked.audit.json[kMadeBy].value(kInputs, Json()), now)) found.words.push_back(std::move(one));
-  found.again.command = words_behind_program(made.words);
+  found.again.command = words_behind_program(made.words, asked.path);
   found.again.command.insert(found.again.command.end(), {"-o", typed_path(made.output), "--force"});
   return found;
 }
@@ -274,7 +278,7 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   }
   if (!model.empty())
     for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
-  found.again.command = words_behind_program(words);
+  found.again.command = words_behind_program(words, path);
   found.again.command.insert(found.again.command.end(), {"-o", typed_path(path), "--force"});
   return found;
 }
@@ -303,7 +307,7 @@ void tell_passed_over(const std::vector<std::string>& files) {
   constexpr std::size_t kMostNames = 8;
   if (files.empty()) return;
   const std::vector<std::string> named(files.begin(), files.begin() + std::ptrdiff_t(std::min(files.size(), kMostNames)));
-  std::fprintf(stderr, "note: %s not asked about, as no audit beside %s the scene: %s%s (--scene names that of a film or picture; tables of `sweep` and charts, which measure, cannot be asked)\n",
+  std::fprintf(stderr, "note: %s not asked about, as no audit beside %s the scene: %s%s (--scene names that of a film or picture; charts, which measure, cannot be asked)\n",
                counted(files.size(), "file is", "files are").c_str(), files.size() == 1 ? "it tells" : "them tells", joined(named).c_str(),
                files.size() > kMostNames ? ", .." : "");
 }

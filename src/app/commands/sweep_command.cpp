@@ -19,6 +19,7 @@
 #include "app/commands/map_axes.hpp"
 #include "app/commands/sweep_map.hpp"
 #include "app/commands/sweep_table.hpp"
+#include "app/commands/table_record.hpp"
 #include "app/film/runs.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/report/peaks.hpp"
@@ -383,8 +384,11 @@ void run_sweep(SweepOptions options) {
     tables.front() = with_suffix(tables.front(), suffix);
     SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, tables, options.common.force, options.common.quiet, peaks, options.last};
     if (!maps.empty()) job.looks_at_names = [&](const std::vector<std::string>& names) { require_map_column(names, grid, options.last, options.map); };
+    std::optional<TableRecords> records;  // a share is no table yet
+    if (options.shard.empty()) records.emplace(*options.figure.command, tables, tables, options.common);
     const SweepOutcome outcome = write_sweep_table(job);
     for (const std::string& path : tables) tell(path, outcome);
+    if (records) records->write();
     if (!maps.empty()) {
       draw_maps(options, grid, maps, tables.front());
       for (const std::string& path : maps) tell(path, outcome);
@@ -414,7 +418,7 @@ void add_sweep_command(CommandLine& app) {
                           "(repeatable; default out/NAME_sweep.csv)");
   command->add_repeatable("--each", options->each, "what a run becomes in the folder: mp4 (default), png, svg, gif, csv, ..; repeatable");
   command->add_option("--peaks", options->peaks,
-                      "qd,tau,energy_error,..: of these the largest of each run, with its sign (the energy's error without it), as columns of the "
+                      "qd,tau,energy_error,..: of these the largest of each run, with its sign, as columns of the "
                       "table; names as of `simulate --columns`");
   command->add_repeatable("--last", options->last,
                           "an expression whose value at the end of each run is a column of the table, like 'x_G' or 'sqrt((x_G - 0.9)^2 + (y_G - 0.3)^2)'; repeatable");

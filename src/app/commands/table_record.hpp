@@ -1,4 +1,4 @@
-// What tables of `simulate` and `inverse` cannot remember themselves: beside x.csv the record x.csv.json says which command made it, of which files, and
+// What tables of `simulate`, `inverse` and `sweep` cannot remember themselves: beside x.csv the record x.csv.json says which command made it, of which files, and
 // which bytes it has, under kMadeBy: {arguments, files, inputs, output}, paths as found from its folder, `output` the -o that made the table with those of other
 // panels. `check` and `check --today` ask it.
 #pragma once

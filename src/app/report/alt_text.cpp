@@ -170,7 +170,8 @@ void add_words(std::vector<Moment>& moments, const FilmReport& report) {
     const auto at = instant_of(entry, events);
     const std::size_t panel = std::min(std::size_t(entry.panel), report.panels.size()) - 1;
     if (!at || *at > report.panels[panel].trajectory.end_time) continue;
-    moments.push_back({*at, in_plain_words(entry.text), std::max(entry.hold, kCaptionSeconds)});
+    const RunReport& run = report.panels[panel];
+    moments.push_back({*at, in_plain_words(filled_words(entry.text, run.prepared.scene, run.trajectory)), std::max(entry.hold, kCaptionSeconds)});
   }
 }
 

@@ -98,7 +98,7 @@ bool is_seen_between(const Trajectory& run, MotionColumn column) {
 
 // The method's own error, at the ends of its steps: what its dense output adds between them is none of the run's.
 void look_at_steps(const Trajectory& run, Farthest& peak) {
-  if (run.energy_at_steps) peak.look(run.energy_at_steps->largest_error, run.energy_at_steps->time);
+  if (run.energy_at_steps) peak.look(run.energy_at_steps->signed_error, run.energy_at_steps->time);
 }
 
 // One number along a run.

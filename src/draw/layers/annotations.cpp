@@ -11,6 +11,7 @@
 #include "picture/formula_words.hpp"
 #include "picture/point.hpp"
 #include "scene/annotation.hpp"
+#include "scene/run/title.hpp"
 
 namespace chainreel {
 namespace {
@@ -91,7 +92,10 @@ class Annotations : public Layer {
       const AnnotationEntry& entry = stage.page.annotate[i];
       const std::optional<double> at = instant_of(entry, panels);
       // What comes behind the last frame, as at the very end, is told on it.
-      if (at) notes_.push_back({&entry, int(i) + 1, std::min(*at, stage.times.back()), lay_out(entry)});
+      if (!at) continue;
+      const StagedRun& motion = stage.motions[std::min(std::size_t(entry.panel), stage.motions.size()) - 1];
+      const std::string text = filled_words(entry.text, motion.scene(), motion.trajectory());
+      notes_.push_back({&entry, int(i) + 1, std::min(*at, stage.times.back()), text, lay_out(entry, text)});
     }
   }
 
@@ -109,6 +113,7 @@ class Annotations : public Layer {
     const AnnotationEntry* entry;
     int number;
     double at;  // s of the motion
+    std::string text;
     TextLine line;
   };
 
@@ -116,9 +121,9 @@ class Annotations : public Layer {
     return {Face::label, scaled(size::kSymbol, stage_->page.text_scale), stage_->theme.ink, Align::left};
   }
 
-  TextLine lay_out(const AnnotationEntry& entry) const {
+  TextLine lay_out(const AnnotationEntry& entry, const std::string& text) const {
     try {
-      return lay_out_words(stage_->fonts, entry.text, style());
+      return lay_out_words(stage_->fonts, text, style());
     } catch (const Error& error) {
       throw Error(error.code(), error.problems().front().message, entry.place);
     }
@@ -188,7 +193,7 @@ class Annotations : public Layer {
     for (const double share : kWidths) {
       if (!shapes.empty() && widest <= kShortLine * style().size) break;
       if (widest <= share * area.width() && !shapes.empty()) continue;
-      TextLine line = lay_out_within(stage_->fonts, note.entry->text, style(), share * area.width());
+      TextLine line = lay_out_within(stage_->fonts, note.text, style(), share * area.width());
       if (!shapes.empty() && (line.box.width() >= shapes.back().box.width() || !has_room(line))) continue;
       shapes.push_back(std::move(line));
     }

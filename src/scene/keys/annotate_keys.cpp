@@ -65,7 +65,7 @@ KeyText told_annotate() {
       told_record("",
                   {told("at", KeyForm::number, "when, an instant of the motion; or `event`").in("s"),
                    told("event", KeyForm::text, "a name of `events:`: the first time that it happens"),
-                   told("text", KeyForm::text, "what is said; formulas between dollar signs: \"along $Lambda$\"").required(),
+                   told("text", KeyForm::text, "what is said; formulas between dollar signs: \"along $Lambda$\"; {fall} and {F} as in `title`").required(),
                    told_either("point",
                                {told("", KeyForm::text, ""),
                                 told_list("", told("", KeyForm::number, ""), "m, as `camera.fit` has them, or x y z in the world")},

@@ -57,6 +57,13 @@ std::string told_of_none(const Scene& scene, const Trajectory& trajectory) {
 
 }  // namespace
 
+std::string filled_words(const std::string& words, const Scene& scene, const Trajectory& trajectory) {
+  return filled(words, [&](const std::string& name) -> std::optional<std::string> {
+    if (name == kFall && has_fall(scene)) return fall_time_text(scene, trajectory);
+    return parameter_of(scene, name);
+  });
+}
+
 std::string title_of(const Scene& scene, const Trajectory& trajectory) {
   std::set<std::string> told;
   const std::string own = told_of_none(scene, trajectory);

@@ -13,6 +13,9 @@ namespace chainreel {
 // signs; and behind it the parameters that the command line gave and the title does not tell.
 std::string title_of(const Scene& scene, const Trajectory& trajectory);
 
+// Words that a film says elsewhere, likewise.
+std::string filled_words(const std::string& words, const Scene& scene, const Trajectory& trajectory);
+
 // The title above a comparison, whose panels have the values: what it leaves open is an ellipsis.
 std::string title_of_page(const Scene& page);
 

@@ -37,6 +37,7 @@ inline bool is_complete(RunStatus status) {
 // error, without that of its dense output, and how much of it was at stake, also between samples.
 struct EnergyAtSteps {
   double largest_error = 0;  // of |E(t) - E(0) - work|, J
+  double signed_error = 0;   // that one with its sign
   double time = 0;           // of it, s
   double at_end = 0;         // of the last step, signed, J
   double largest_kinetic = 0;  // J
