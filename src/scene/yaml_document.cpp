@@ -342,6 +342,12 @@ YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
     }
     note_overrides(panel, prefix, key);
   }
+  const YAML::Node motion = changes["motion"];
+  const auto says = [&](const std::string& key) {
+    return std::any_of(changes.begin(), changes.end(), [&](const auto& pair) { return pair.first.Scalar() == key || lies_below(pair.first.Scalar(), key); });
+  };
+  for (const char* key : kKeysOfRuns)
+    if (motion.IsDefined() && !motion.IsNull() && !says(key)) panel.root.remove(key);
   return panel;
 }
 

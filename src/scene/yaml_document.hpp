@@ -73,6 +73,11 @@ void replace_overrides(YamlDocument& document, const std::vector<Override>& over
 // Keys of a comparison that are none of its panels'.
 inline constexpr const char* kKeysOfPage[] = {"title", "layout", "compare"};
 
+// Keys of what is computed, tied or cut, which mean nothing where a recorded motion is shown as it was: a panel that shows one does not have those of its
+// page, which are for the others.
+inline constexpr const char* kKeysOfRuns[] = {"start", "torque", "push", "constraints", "stabilize", "baumgarte", "contact_force", "method", "step",
+                                              "tolerance", "order", "accuracy", "limit", "expect"};
+
 // The document that entry `index` (from 0) of `compare:` stands for: the file's keys without those, changed by the entry's own, which may be dotted. The entry is a mapping.
 YamlDocument panel_document(const YamlDocument& whole, std::size_t index);
 

@@ -176,6 +176,30 @@ TEST_F(Replay, CommandsThatAreAboutMethodsSaySo) {
   EXPECT_THAT(run_program({"check", folder.file("replay.yaml"), "--all"}).err, HasSubstr("recorded motion"));
 }
 
+// What a page says of how to compute is for the panels that compute; one that shows a log has no use for it. In either order, and again
+// from what the film remembers.
+TEST_F(Replay, StandsBesideARunOfTheSamePage) {
+  record("log.csv", "t,q,qd,qdd");
+  const std::string page = "model: " CHAINREEL_SOURCE_FOLDER "/models/rr.urdf\nstart: {q: [1, 0]}\nmethod: rk4\nstep: 0.001\nlimit: stop\nvideo: {width: 160, height: 90}\nduration: 0.2\n";
+  for (const char* panels : {"[{title: run}, {title: log, motion: log.csv}]", "[{title: log, motion: log.csv}, {title: run}]"}) {
+    const std::string both = folder.write("both.yaml", page + "compare: " + panels + "\n");
+    const ProgramResult made = run_program({"render", both, "--quiet", "--force", "-o", folder.file("both.mp4")});
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_EQ(run_program({"check", folder.file("both.mp4"), "--today"}).status, 0);
+    ASSERT_EQ(run_program({"extract", folder.file("both.mp4"), "--force", "-o", folder.file("again.yaml")}).status, 0);
+    const Json before = Json::parse(run_program({"simulate", both, "--quiet", "--json", "--force", "-o", folder.file("a.csv")}).out);
+    const Json after = Json::parse(run_program({"simulate", folder.file("again.yaml"), "--quiet", "--json", "--force", "-o", folder.file("b.csv")}).out);
+    ASSERT_EQ(before["panels"].size(), 2u);
+    for (const std::size_t i : {0, 1}) {
+      EXPECT_EQ(before["panels"][i]["trajectory_sha256"], after["panels"][i]["trajectory_sha256"]) << panels << i;
+      EXPECT_EQ(before["panels"][i]["method"] == "rk4", before["panels"][i]["title"] == "run") << panels << i;
+    }
+  }
+  // What such a panel says itself is refused as ever.
+  const std::string bad = folder.write("bad2.yaml", page + "compare: [{title: run}, {motion: log.csv, step: 0.1}]\n");
+  EXPECT_THAT(run_program({"check", bad}).err, HasSubstr("beside it step means nothing"));
+}
+
 // The torques at the rows of a log, by its own names, in degrees, with stamps of a clock: those of the same numbers from t = 0
 // in radians. Stamps of 1.7e9 s would leave a double 2e-7 s, of which splines made 8 % of the torques.
 TEST_F(Replay, InverseTakesTheLogOfAScene) {

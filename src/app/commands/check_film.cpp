@@ -391,6 +391,8 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
     } catch (const Error& error) {
       if (error.code() == ExitCode::interrupted || error.code() == ExitCode::terminated) throw;
       all.push_back({.path = film.path, .scene = scene, .trouble = error});
+    } catch (const Json::exception&) {
+      all.push_back({.path = film.path, .scene = scene, .trouble = Error(ExitCode::bad_input, "what it remembers, or the audit beside it, was changed by hand", {film.path})});
     }
   }
   tell_result(common, [&] {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/cli/command.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/report/driving_tables.hpp"
@@ -92,11 +91,24 @@ std::vector<std::string> changes_of(const Json& before, const Json& now) {
 
 }  // namespace
 
+std::size_t begin_of_path(const std::vector<std::string>& words, std::size_t file) {
+  return file > 0 && words[file - 1] == "--package" ? words[file].find('=') + 1 : 0;
+}
+
+std::vector<std::string> words_from(const Command& command, const std::string& folder) {
+  std::vector<std::string> words = command.words();
+  for (const std::size_t i : command.files()) {
+    const std::size_t begin = begin_of_path(words, i);
+    words[i].replace(begin, std::string::npos, path_from(folder, words[i].substr(begin)));
+  }
+  return words;
+}
+
 Json command_inputs(const std::vector<std::string>& words, const std::vector<std::size_t>& files) {
   const std::vector<std::string> overrides = overrides_in(words);
   Json inputs = Json::array();
   for (const std::size_t i : files)
-    if (words[i - 1] != "--package") inputs.push_back(input_of(words[i], overrides));
+    if (i > 0 && i < words.size() && words[i - 1] != "--package") inputs.push_back(input_of(words[i], overrides));
   return inputs;
 }
 

@@ -154,11 +154,6 @@ std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw
 
 namespace {
 
-// Of --package NAME=FOLDER, the part behind the =.
-std::size_t begin_of_path(const std::string& word, const std::string& before) {
-  return before == "--package" ? word.find('=') + 1 : 0;
-}
-
 // What is measured is another number at each time.
 bool measures(const std::vector<std::string>& words) {
   return !words.empty() && words.front() == "chart";
@@ -168,19 +163,14 @@ bool measures(const std::vector<std::string>& words) {
 std::string folder_of(const Command& command) {
   const std::vector<std::string> words = command.words();
   for (const std::size_t i : command.files())
-    if (begin_of_path(words[i], words[i - 1]) == 0) return std::filesystem::path(words[i]).parent_path().string();
+    if (begin_of_path(words, i) == 0) return std::filesystem::path(words[i]).parent_path().string();
   return "";
 }
 
 }  // namespace
 
 ClipMemory memory_of_figure(const Command& command, const std::string& title) {
-  std::vector<std::string> words = command.words();
-  const std::string folder = folder_of(command);
-  for (const std::size_t i : command.files()) {
-    const std::size_t begin = begin_of_path(words[i], words[i - 1]);
-    words[i].replace(begin, std::string::npos, path_from(folder, words[i].substr(begin)));
-  }
+  const std::vector<std::string> words = words_from(command, folder_of(command));
   ClipMemory memory{title, {}, {}, {}, {{"arguments", words}, {"files", command.files()}}};
   if (const Json inputs = measures(words) ? Json() : command_inputs(command.words(), command.files()); are_known(inputs)) memory.figure[kInputs] = inputs;
   return memory;

@@ -83,11 +83,11 @@ void check_method_keys(Fields& fields, Scene& scene) {
 void check_motion(Fields& fields, const Scene& scene) {
   if (!scene.motion) return;
   std::vector<std::string> vain;
-  for (const char* key : {"start", "torque", "push", "constraints", "stabilize", "baumgarte", "contact_force", "method", "step", "tolerance",
-                          "order", "accuracy"})
+  for (const std::string key : kKeysOfRuns) {
+    if (key == "limit" && scene.limit == LimitPolicy::report) continue;
+    if (key == "expect" && scene.expect == Outcome::finish) continue;
     if (fields.has(key)) vain.push_back(key);
-  if (fields.has("limit") && scene.limit != LimitPolicy::report) vain.push_back("limit");
-  if (fields.has("expect") && scene.expect != Outcome::finish) vain.push_back("expect");
+  }
   if (!vain.empty()) {
     std::string remedy;
     for (const std::string& key : vain) remedy += (remedy.empty() ? "" : " ") + ("--set " + key + "=");
