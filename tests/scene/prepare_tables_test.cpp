@@ -102,5 +102,26 @@ TEST_F(SceneTables, ReferencesOfFeedbackAreSaidToo) {
   EXPECT_THAT(error("torque: {computed_torque: {kp: 1, trajectory: q.csv, outside: refuse}}\n"), HasSubstr("0 to 1 s"));
 }
 
+// A column of another quantity would run as a torque or an angle of its number: three joints that turn.
+TEST_F(SceneTables, UnitsOfAnotherKindAreRefused) {
+  const auto log = [&](const std::string& units) { folder_.write("tau.csv", "t,tau1" + units + ",tau2,tau3\n0,1,0,0\n10,1,0,0\n"); };
+  const auto track = [&](const std::string& header) { folder_.write("q.csv", "t," + header + "\n0,0,0,0\n10,1,0,0\n"); };
+  for (const char* unit : {" [deg]", " [rad]", " [N]", " [mm]"}) {
+    log(unit);
+    EXPECT_THAT(error("torque: {csv: tau.csv}\n"), testing::AllOf(HasSubstr("is to be tau of 'joint1'"), HasSubstr("which turns"))) << unit;
+  }
+  for (const char* unit : {"", " [N m]"}) {
+    log(unit);
+    EXPECT_EQ(error("torque: {csv: tau.csv}\n"), "") << unit;
+  }
+  const std::string pd = "torque: {pd: {trajectory: q.csv, kp: 1, kd: 1}}\n", inverse = "torque: {inverse_of: q.csv}\n";
+  for (const char* header : {"q1 [mm],q2,q3", "q1,q2 [N],q3", "q1 [rad/s],q2,q3"}) {
+    track(header);
+    for (const std::string& text : {pd, inverse}) EXPECT_THAT(error(text), HasSubstr("which turns")) << header;
+  }
+  track("q1 [deg],q2 [rad],q3");
+  for (const std::string& text : {pd, inverse}) EXPECT_EQ(error(text), "");
+}
+
 }  // namespace
 }  // namespace chainreel

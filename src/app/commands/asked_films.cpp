@@ -101,21 +101,22 @@ class ScenesRemembered {
     try {
       const std::string name = memory.figure.is_null() ? word_of(memory.audit, "scene") : fs::path(first_file_of(memory.figure)).filename().string();
       if (name.empty() || fs::path(name).filename() != fs::path(name)) return "";
-      return look_for(path, name, files_wanted_by(memory));
+      const Json& telling = memory.figure.is_null() ? memory.audit : memory.figure;
+      return look_for(path, name, files_wanted_by(memory), telling.is_object() && telling.value(kShipped, Json()) == Json(true));
     } catch (const Error&) {
       return "";
     }
   }
 
  private:
-  std::string look_for(const std::string& path, const std::string& name, const std::vector<WantedFile>& needed) {
-    std::vector<std::string> key{fs::path(path).parent_path().string(), name};
+  std::string look_for(const std::string& path, const std::string& name, const std::vector<WantedFile>& needed, bool shipped) {
+    std::vector<std::string> key{fs::path(path).parent_path().string(), name, shipped ? "shipped" : ""};
     for (const WantedFile& file : needed) key.insert(key.end(), {file.path, file.sha256});
     const auto [known, is_new] = found_.try_emplace(key);
     if (!is_new) return known->second;
     std::vector<WantedFile> wanted = needed;
     if (std::ranges::none_of(wanted, [&](const WantedFile& file) { return file.path == name; })) wanted.push_back({name, ""});
-    const ClipOrigin origin = find_nearest(path, wanted);
+    const ClipOrigin origin = find_nearest(path, name, wanted, shipped);
     if (origin.is_found) known->second = (fs::path(origin.folder) / name).lexically_normal().string();
     return known->second;
   }

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "app/cli/named_pose.hpp"
 #include "app/cli/result.hpp"
@@ -47,7 +46,7 @@ namespace fs = std::filesystem;
 // Keys of an audit that are no part of what is shown: versions and the model's file, which are told by themselves, where the
 // scene lies, and how the method was chosen that both have.
 bool is_beside(const std::string& key) {
-  constexpr std::array<std::string_view, 7> kKeys = {"versions", "model_sha256", "model_elements_sha256", "scene", "auto", kSet, kMechanisms};
+  constexpr std::array<std::string_view, 8> kKeys = {"versions", "model_sha256", "model_elements_sha256", "scene", "auto", kSet, kMechanisms, kShipped};
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
@@ -225,8 +224,10 @@ std::vector<std::string> changed_poses(const Json& figure, const std::string& mo
 }
 
 // What a command writes is never among the words that are remembered: a file that came from elsewhere could name any of the user's.
-std::vector<std::string> words_behind_program(const std::vector<std::string>& words, const std::string& path) {
+std::vector<std::string> words_behind_program(std::vector<std::string> words, const std::vector<std::size_t>& files, const std::string& path) {
   std::vector<std::string> all{"chainreel"};
+  for (const std::size_t i : files)
+    if (i < words.size()) words[i] = typed_path(words[i]);
   for (const std::string& word : words)
     if (word.starts_with("-o") || word.starts_with("--output") || word.starts_with("--force"))
       throw Error(ExitCode::bad_input, "remembers a command that says where to write, which no program of ours does: it was changed by hand", {path});
@@ -238,7 +239,7 @@ std::vector<std::string> words_behind_program(const std::vector<std::string>& wo
 Json inputs_today(const std::vector<std::string>& words, const std::vector<std::size_t>& files, const std::string& path) {
   Json now = command_inputs(words, files);
   if (!are_known(now))
-    throw Error(ExitCode::bad_input, "one of the files that made it cannot be read any more: `" + shell_line(words_behind_program(words, path)) + "` says which; a scene that lies elsewhere is named by --scene", {path});
+    throw Error(ExitCode::bad_input, "one of the files that made it cannot be read any more: `" + shell_line(words_behind_program(words, files, path)) + "` says which; a scene that lies elsewhere is named by --scene", {path});
   return now;
 }
 
@@ -253,7 +254,10 @@ Today recorded_of_today(const AskedFilm& asked, const std::string& scene, const 
   const Json now = inputs_today(made.words, made.files, asked.path);
   if (asked.audit.is_changed && !asked.is_gone) found.words.push_back("the file is not as it was written: `chainreel check " + asked.path + "`");
   for (std::string& one : changed_inputs(asked.audit.json[kMadeBy].value(kInputs, Json()), now)) found.words.push_back(std::move(one));
-  found.again.command = words_behind_program(made.words, asked.path);
+  found.again.command = words_behind_program(made.words, made.files, asked.path);
+  // The table of a map is made without one.
+  if (const auto map = std::find(found.again.command.begin(), found.again.command.end(), "--map"); map != found.again.command.end() && map + 1 != found.again.command.end())
+    found.again.command.erase(map, map + 2);
   found.again.command.insert(found.again.command.end(), {"-o", typed_path(made.output), "--force"});
   return found;
 }
@@ -264,7 +268,7 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   const std::string model = word_of(figure, "model"), file = first_file_of(figure);
   if (file.empty())
     throw Error(ExitCode::bad_input, "is a figure that does not remember what its files said: `chainreel extract` tells the command that makes it again", {path});
-  const ClipOrigin origin = find_nearest(path, files_wanted_by(remembered));
+  const ClipOrigin origin = find_nearest(path, file, files_wanted_by(remembered), figure.value(kShipped, Json()) == Json(true));
   if (!origin.is_found) throw Error(ExitCode::bad_input, "shows " + file + ", which is not here, nor in folders around", {path});
   const Json moved = figure_from(figure, origin);
   Today found{.path = path, .scene = model.empty() ? first_file_of(moved) : word_of(moved, "model")};
@@ -278,7 +282,7 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   }
   if (!model.empty())
     for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
-  found.again.command = words_behind_program(words, path);
+  found.again.command = words_behind_program(words, figure.value("files", std::vector<std::size_t>()), path);
   found.again.command.insert(found.again.command.end(), {"-o", typed_path(path), "--force"});
   return found;
 }
@@ -326,6 +330,8 @@ void print_today(const Today& one) {
     for (const std::string& line : one.facts) std::printf("  %s\n", line.c_str());
   if (!one.is_same() && !one.again.knows_set) std::printf("  what --set changed when it was made is not known, as no audit lies beside it: give it again\n");
   if (!one.is_same() && !one.again.command.empty()) std::printf("  made again by: %s\n", shell_line(one.again.command).c_str());
+  if (const std::vector<std::string> foreign = one.is_same() ? std::vector<std::string>() : foreign_beside(one.again.command); !foreign.empty())
+    std::printf("  .. which would replace %s, which this program did not write so: move it away before\n", joined(foreign).c_str());
 }
 
 // One file is told of with its command. What of many is not as it should be is told in the report: here how many they are, and what makes all anew.
@@ -350,10 +356,20 @@ Problem stale_files(const std::vector<std::string>& asked, const std::vector<Tod
           {}};
 }
 
-// For a shell nothing else is told: what is as it should be has no line.
-void print_command(const Today& one) {
-  if (!one.again.command.empty())
-    std::printf("%s%s\n", one.again.knows_set ? "" : "# what --set changed is not known, as no audit lies beside it: ", shell_line(one.again.command).c_str());
+// For a shell nothing else is told: what is as it should be has no line. What would be lost or is not known is told in place of a command that runs.
+void print_commands(const std::vector<Today>& all) {
+  std::vector<std::vector<std::string>> commands;
+  std::map<std::vector<std::string>, bool> knows_set;
+  for (const Today& one : all)
+    if (!one.is_same() && !one.again.command.empty() && knows_set.try_emplace(one.again.command, one.again.knows_set).second) commands.push_back(one.again.command);
+  put_in_order(commands);
+  for (const std::vector<std::string>& command : commands) {
+    const std::vector<std::string> foreign = foreign_beside(command);
+    const std::string remark = !foreign.empty()          ? "# it would replace " + joined(foreign) + ", which this program did not write so: "
+                               : !knows_set.at(command) ? "# what --set changed is not known, as no audit lies beside it: "
+                                                        : "";
+    std::printf("%s%s\n", remark.c_str(), shell_line(command).c_str());
+  }
 }
 
 Json report_of(const Today& one) {
@@ -400,12 +416,8 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
     for (const Today& one : all) films.push_back(report_of(one));
     return Json{{"films", films}, {"passed_over", asked.passed_over}};
   }, [&] {
-    std::set<std::vector<std::string>> told;  // files of one audit are made by one command
-    for (const Today& one : all)
-      if (!as_commands)
-        print_today(one);
-      else if (!one.is_same() && told.insert(one.again.command).second)
-        print_command(one);
+    if (as_commands) return print_commands(all);
+    for (const Today& one : all) print_today(one);
   });
   std::vector<Problem> troubles;
   for (const Today& one : all) {

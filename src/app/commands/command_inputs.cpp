@@ -99,7 +99,8 @@ std::vector<std::string> words_from(const Command& command, const std::string& f
   std::vector<std::string> words = command.words();
   for (const std::size_t i : command.files()) {
     const std::size_t begin = begin_of_path(words, i);
-    words[i].replace(begin, std::string::npos, path_from(folder, words[i].substr(begin)));
+    const std::string path = path_from(folder, words[i].substr(begin));
+    words[i].replace(begin, std::string::npos, begin == 0 && path.starts_with('-') ? "./" + path : path);  // else a flag
   }
   return words;
 }

@@ -7,10 +7,12 @@
 #include <optional>
 
 #include "app/commands/command_inputs.hpp"
+#include "app/film/clip_origin.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/film/target.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/report/version.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/hash.hpp"
@@ -159,12 +161,17 @@ bool measures(const std::vector<std::string>& words) {
   return !words.empty() && words.front() == "chart";
 }
 
-// The first file's, from which those of a figure are remembered: a name that a copy elsewhere has, too.
-std::string folder_of(const Command& command) {
+// "" where it names none.
+std::string first_file(const Command& command) {
   const std::vector<std::string> words = command.words();
   for (const std::size_t i : command.files())
-    if (begin_of_path(words, i) == 0) return std::filesystem::path(words[i]).parent_path().string();
+    if (begin_of_path(words, i) == 0) return words[i];
   return "";
+}
+
+// The first file's, from which those of a figure are remembered: a name that a copy elsewhere has, too.
+std::string folder_of(const Command& command) {
+  return std::filesystem::path(first_file(command)).parent_path().string();
 }
 
 }  // namespace
@@ -173,6 +180,7 @@ ClipMemory memory_of_figure(const Command& command, const std::string& title) {
   const std::vector<std::string> words = words_from(command, folder_of(command));
   ClipMemory memory{title, {}, {}, {}, {{"arguments", words}, {"files", command.files()}}};
   if (const Json inputs = measures(words) ? Json() : command_inputs(command.words(), command.files()); are_known(inputs)) memory.figure[kInputs] = inputs;
+  if (const std::string first = first_file(command); !first.empty() && !name_of_shipped(first).empty()) memory.figure[kShipped] = true;
   return memory;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <map>
 
 #include "app/commands/paper.hpp"
 #include "app/film/clip_origin.hpp"
@@ -76,6 +78,56 @@ std::vector<std::string> changes_of(const AskedFilm& asked, const CommonOptions&
     if (one.is_string()) set.push_back(one);
   for (const std::string& one : overrides_of(common)) set.push_back(one);
   return set;
+}
+
+namespace {
+
+std::vector<std::string> outputs_of(const std::vector<std::string>& command) {
+  std::vector<std::string> outputs;
+  for (std::size_t i = 0; i + 1 < command.size(); ++i)
+    if (command[i] == "-o") outputs.push_back(fs::path(command[i + 1]).lexically_normal().string());
+  return outputs;
+}
+
+}  // namespace
+
+std::vector<std::string> foreign_beside(const std::vector<std::string>& command) {
+  const std::vector<std::string> outputs = outputs_of(command);
+  const std::string verb = command.size() > 1 ? command[1] : "";
+  std::vector<std::string> foreign;
+  const auto look = [&](const std::string& path) {
+    std::error_code code;
+    const bool is_new = std::find(foreign.begin(), foreign.end(), path) == foreign.end() && std::find(outputs.begin(), outputs.end(), path) == outputs.end();
+    const bool has_record = is_own_sidecar(path + ".json") && !is_changed_since(path);
+    if (is_new && fs::exists(fs::symlink_status(path, code)) && !is_own_sidecar(path) && !has_record) foreign.push_back(path);
+  };
+  for (const std::string& output : outputs) {
+    const auto named = [&](const char* ending) { return fs::path(output).replace_extension(ending).string(); };
+    if (verb == "render")
+      for (const char* ending : {".json", ".txt", ".srt"}) look(named(ending));
+    else if (is_table(output))
+      look(output + ".json");
+    else if (verb == "energy" || verb == "stability" || verb == "fall" || verb == "sweep" || verb == "chart")
+      look(named(".csv"));
+  }
+  return foreign;
+}
+
+void put_in_order(std::vector<std::vector<std::string>>& commands) {
+  std::map<std::string, std::size_t> makers;
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    for (const std::string& output : outputs_of(commands[i])) makers.emplace(output, i);
+  std::vector<std::vector<std::string>> ordered;
+  std::vector<bool> is_begun(commands.size());
+  const std::function<void(std::size_t)> put = [&](std::size_t i) {
+    if (is_begun[i]) return;  // there, or a circle
+    is_begun[i] = true;
+    for (const std::string& word : commands[i])
+      if (const auto maker = makers.find(fs::path(word).lexically_normal().string()); maker != makers.end()) put(maker->second);
+    ordered.push_back(commands[i]);
+  };
+  for (std::size_t i = 0; i < commands.size(); ++i) put(i);
+  commands = std::move(ordered);
 }
 
 Remaking remaking_of(const AskedFilm& asked, const PreparedFilm& film, const Json& shown, const CommonOptions& common) {

@@ -20,6 +20,12 @@ struct Remaking {
 // `shown`: which instant or event a picture is of, and on which paper, as it remembers it.
 Remaking remaking_of(const AskedFilm& asked, const PreparedFilm& film, const Json& shown, const CommonOptions& common);
 
+// Files beside those that such a command writes which it would replace, as it overwrites, though they are not ours, or were changed since.
+std::vector<std::string> foreign_beside(const std::vector<std::string>& command);
+
+// Those whose files others read come first; else in their order.
+void put_in_order(std::vector<std::vector<std::string>>& commands);
+
 // What the command line changed when it was made, as far as that is known, and what is given now: "duration=2".
 std::vector<std::string> changes_of(const AskedFilm& asked, const CommonOptions& common);
 

@@ -324,7 +324,9 @@ std::vector<std::string> maps_of(SweepOptions& options) {
   std::vector<std::string> maps;
   std::copy_if(options.outputs.begin(), options.outputs.end(), std::back_inserter(maps), is_map_path);
   for (const std::string& path : maps) const OutputFile allowed(path, options.common.force);
-  if (!maps.empty() && tables_of(options.outputs).empty()) options.outputs.push_back(fs::path(maps.front()).replace_extension(".csv").string());
+  const std::vector<std::string> tables = tables_of(options.outputs);
+  const bool has_csv = !tables.empty() && table_format_of(tables.front()) == TableFormat::csv;  // of which maps are drawn
+  if (!maps.empty() && !has_csv) options.outputs.push_back(fs::path(maps.front()).replace_extension(".csv").string());
   return maps;
 }
 

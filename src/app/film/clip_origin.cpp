@@ -148,13 +148,19 @@ ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& w
   return changed.value_or(first);
 }
 
-ClipOrigin find_nearest(const std::string& clip, const std::vector<WantedFile>& wanted) {
+ClipOrigin find_nearest(const std::string& clip, const std::string& first, const std::vector<WantedFile>& wanted, bool shipped) {
   std::error_code code;
   const fs::path here = fs::current_path(code);
+  if (shipped) {
+    const std::string own = shipped_file(fs::path(first).filename().string());
+    return own.empty() ? ClipOrigin{"", false, {}, {first}} : look_in(fs::path(own).parent_path(), wanted, true);
+  }
   for (const fs::path& start : {(here / clip).lexically_normal().parent_path(), here}) {
     Candidates candidates({start}, kBeside);
-    while (const std::optional<fs::path> folder = candidates.next())
-      if (ClipOrigin origin = look_in(*folder, wanted); origin.is_found) return origin;
+    while (const std::optional<fs::path> folder = candidates.next()) {
+      if (!is_there(*folder / first)) continue;
+      if (ClipOrigin origin = look_in(*folder, wanted, true); origin.is_found) return origin;
+    }
   }
   return shipped_origin(here, wanted).value_or(look_in(here, wanted));
 }

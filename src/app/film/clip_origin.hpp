@@ -35,9 +35,12 @@ struct ClipOrigin {
 ClipOrigin find_origin(const std::string& clip, const std::vector<WantedFile>& wanted,
                        const std::string& given);
 
-// The folder nearest to the clip that holds all files, whatever has become of them, so that a change of what lies beside it is not missed for
-// a copy elsewhere.
-ClipOrigin find_nearest(const std::string& clip, const std::vector<WantedFile>& wanted);
+// In a picture's audit and a figure: its scene or model came with the program, and not from a folder of the user's.
+inline constexpr const char* kShipped = "shipped";
+
+// The folder nearest to the clip that holds the file `first` and all others, whatever has become of them, so that a change of what lies beside it is
+// not missed for a copy elsewhere; others may come with the program. `shipped`: of what came with the program itself.
+ClipOrigin find_nearest(const std::string& clip, const std::string& first, const std::vector<WantedFile>& wanted, bool shipped);
 
 // What a memory needs beside it: relative paths of its scene, or of its figure's words, with the hashes that
 // its audit tells.

@@ -7,7 +7,10 @@
 #include "app/report/alt_text.hpp"
 #include "app/report/instant_report.hpp"
 #include "app/report/run_report.hpp"
+#include "app/film/clip_origin.hpp"
 #include "app/report/sidecar.hpp"
+#include "app/works/part.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "scene/run/title.hpp"
@@ -36,6 +39,8 @@ struct Moments::State {
     // No audit lies beside a picture by itself.
     memory.audit[kSet] = film.scene.set;
     for (const PreparedScene& panel : film.panels) memory.audit[kMechanisms].push_back(mechanism_record(panel));
+    if (const std::string meshes = meshes_hash(film); !meshes.empty()) memory.audit[kMeshesHash] = meshes;
+    if (!name_of_shipped(film.scene.file).empty()) memory.audit[kShipped] = true;
     warnings = warning_lines(report);
   }
 

@@ -229,6 +229,12 @@ std::vector<std::string> rename_sidecars(std::vector<Sidecar>& sidecars, const s
   return audits;
 }
 
+// The scene as found from where the audit of that file lies; "" of one that is no file.
+std::string scene_path_from(const std::string& file, const Scene& scene) {
+  std::error_code code;
+  return fs::is_regular_file(scene.file, code) ? path_from(fs::path(file).parent_path().string(), scene.file) : "";
+}
+
 // What audits beside a film's files say of others.
 struct OtherAudits {
   std::map<std::string, Json> kept;                                          // by the audit that tells of them on
@@ -238,7 +244,7 @@ struct OtherAudits {
 
 // Other files that an audit of ours tells of already stay in it where they show the very same; where they do not, what is told of
 // this one gets a name of its own, or else tells of these alone from now on; either is said.
-OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, const std::vector<Output>& outputs, RenderResult& result) {
+OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, const Scene& scene, const std::vector<Output>& outputs, RenderResult& result) {
   OtherAudits audits;
   std::vector<std::string> files;
   for (const Output& output : outputs) {
@@ -249,7 +255,9 @@ OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, co
   for (const Sidecar& sidecar : sidecars)
     if (sidecar.what == Sidecar::audit) paths.push_back(sidecar.file->path());
   for (const std::string& path : paths) {
-    const OtherFiles others = others_audited(path, files, result.audit);
+    Json own = result.audit;
+    own[kScenePath] = or_null(scene_path_from(path, scene));
+    const OtherFiles others = others_audited(path, files, own);
     const std::string what = joined(others.are_others) + ", which is still there and shows something else: ";
     if (others.are_others.empty()) {
       audits.kept[path] = others.entries;
@@ -308,6 +316,7 @@ void write_sidecars(std::vector<Sidecar>& sidecars, const RenderJob& job, const 
     put_first_clip(audit, job, report, [&](const Target& target) {
       return base_of(target) + ".json" == path || tells_of(sidecars, path, target.path);
     });
+    audit[kScenePath] = or_null(scene_path_from(path, report.film().scene));
     audit[kSidecarHashes] = hashes[path];
     audit[kAuditedFiles] = others.kept.at(path);
     for (std::size_t i = 0; i < result.files.size(); ++i)
@@ -346,13 +355,6 @@ std::string part_text(const FilmReport& report, const ClipMemory& memory, FrameR
                            alt_text(report, {report.frames, report.film_seconds()}),
                            captions(report)})
       .dump(-1, ' ', true);
-}
-
-// The scene as found from where the audit lies; "" of one that is no file.
-std::string scene_path_from(const RenderJob& job, const Scene& scene) {
-  std::error_code code;
-  if (job.targets.empty() || !std::filesystem::is_regular_file(scene.file, code)) return "";
-  return path_from(std::filesystem::path(job.targets.front().path).parent_path().string(), scene.file);
 }
 
 Json held_frames_of(const Schedule& schedule) { return {{"first", schedule.first}, {"last", schedule.last}}; }
@@ -406,7 +408,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.audit = to_json(report);
   result.audit[kMeshesHash] = meshes;
   result.audit[kSet] = scene.set;
-  result.audit[kScenePath] = or_null(scene_path_from(job, scene));
+  result.audit[kScenePath] = or_null(job.targets.empty() ? "" : scene_path_from(job.targets.front().path, scene));
   result.audit[kMechanisms] = result.audit[kTables] = Json::array();
   for (const PreparedScene& panel : film.panels) {
     result.audit[kMechanisms].push_back(mechanism_record(panel));
@@ -455,7 +457,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     }
     throw;
   }
-  const OtherAudits others = others_kept(sidecars, job, outputs, result);
+  const OtherAudits others = others_kept(sidecars, job, scene, outputs, result);
   tell(report, job, result);
   if (job.tells) tell_warnings(others.lost);
   std::ranges::copy(others.lost, std::back_inserter(result.warnings));

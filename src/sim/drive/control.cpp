@@ -7,6 +7,7 @@
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "sim/drive/prices.hpp"
+#include "sim/drive/table_units.hpp"
 #include "sim/drive/torque.hpp"
 
 namespace chainreel {
@@ -307,9 +308,16 @@ std::vector<T> spread(const std::vector<T>& given, const Chain& chain, const std
               place);
 }
 
+std::unique_ptr<Reference> table_reference(const Chain& chain, const std::string& path) {
+  const std::vector<std::string> quantities{"q", "qd", "qdd"};
+  const Table file = read_table(path, {});
+  check_table_units(chain, file, time_table_of(file, quantities, chain.coordinate_names), quantities);
+  return make_table_reference(path, chain.coordinate_names);
+}
+
 std::unique_ptr<Reference> reference_of(const Chain& chain, const Feedback& feedback,
                                         const Parameters& parameters, const Place& place) {
-  if (!feedback.trajectory.empty()) return make_table_reference(feedback.trajectory, chain.coordinate_names);
+  if (!feedback.trajectory.empty()) return table_reference(chain, feedback.trajectory);
   const auto entries = [&](const std::vector<Entry>& given, const char* key) {
     return given.empty() ? given : spread(given, chain, key, place);
   };
@@ -336,7 +344,9 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
         control.place);
   std::vector<std::unique_ptr<TorqueLaw>> parts;
   if (!control.csv.empty()) {
-    TimeTable table = time_table_of(control.since_first_row ? read_log(control.csv, control.columns) : read_table(control.csv, control.columns), {"tau"}, chain.coordinate_names, control.columns);
+    const Table file = control.since_first_row ? read_log(control.csv, control.columns) : read_table(control.csv, control.columns);
+    TimeTable table = time_table_of(file, {"tau"}, chain.coordinate_names, control.columns);
+    check_table_units(chain, file, table, {"tau"});
     if (table.groups[0].empty())
       throw Error(ExitCode::bad_input, "has no columns tau1 to tau" + std::to_string(chain.nv) + 
                       ": of other names, beside `csv:`, say `columns: {time: " + control.columns.time.text() + ", " + chain.coordinate_names.front() + ": NAME}`",
@@ -345,7 +355,7 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
   }
   if (!control.inverse_of.empty())
     parts.push_back(
-        within(std::make_unique<InverseTorque>(chain, make_table_reference(control.inverse_of, chain.coordinate_names)),
+        within(std::make_unique<InverseTorque>(chain, table_reference(chain, control.inverse_of)),
                control.inverse_of, control.outside));
   const auto gains = [&](const std::vector<double>& given, const char* key) {
     return spread(given, chain, key, control.place);

@@ -10,6 +10,7 @@
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/friction.hpp"
 #include "sim/drive/prices.hpp"
+#include "sim/drive/table_units.hpp"
 
 namespace chainreel {
 namespace {
@@ -33,42 +34,12 @@ std::string in_row(const Table& table, std::size_t k) {
   return "line " + std::to_string(table.lines[k]);
 }
 
-// Whether the freedom turns; none of one that several joints read, each in its own way.
-bool turns(const Chain& chain, std::size_t freedom) {
-  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
-    const Joint& joint = chain.bodies[b].joint;
-    if (std::size_t(joint.v_index) == freedom && joint.ratio == 1 && joint.offset == 0) return joint.kind == JointKind::revolute;
-  }
-  return false;
-}
-
-// What turns is no length, and what slides no angle.
-void check_units(const Chain& chain, const Table& table, const TimeTable& motion) {
-  for (std::size_t group = 0; group < motion.columns.size(); ++group)
-    for (std::size_t i = 0; i < motion.columns[group].size(); ++i) {
-      const std::size_t column = motion.columns[group][i];
-      const std::string& unit = table.units[column];
-      if (unit.empty()) continue;
-      const std::string base = unit.substr(0, unit.find('/'));
-      const bool is_angle = base == "rad" || base == "deg", is_length = base == "m" || base == "mm" || base == "cm";
-      const bool is_torque = base == "N m" || base == "Nm" || base == "N*m";
-      const bool fits = group == 3 ? (turns(chain, i) ? is_torque : base == "N") : (turns(chain, i) ? is_angle : is_length);
-      const std::string below = unit.find('/') == std::string::npos ? "" : unit.substr(unit.find('/') + 1);
-      const bool is_of_order = group == 1 ? below == "s" : group == 2 ? below == "s^2" || below == "s2" : below.empty();
-      if (fits && is_of_order) continue;
-      throw Error(ExitCode::bad_input,
-                  "'" + table.names[column] + " [" + unit + "]' is to be " + kQuantities[group] + " of '" + chain.coordinate_names[i] +
-                      "', which " + (turns(chain, i) ? "turns: rad, rad/s, rad/s^2 and N m, or deg" : "slides: m, m/s, m/s^2 and N, or mm"),
-                  {table.file});
-    }
-}
-
 // Angles that begin again behind a turn would be taken for a motion back through all of it.
 void check_turns(const Chain& chain, const Table& table, const TimeTable& motion) {
   const auto& q = motion.groups[0];
   const auto& qd = motion.groups[1];
   for (std::size_t i = 0; i < q.size(); ++i) {
-    if (!turns(chain, i)) continue;
+    if (!freedom_turns(chain, i)) continue;
     for (std::size_t k = 1; k < motion.t.size(); ++k) {
       const double jump = q[i][k] - q[i][k - 1], h = motion.t[k] - motion.t[k - 1];
       if (!(std::fabs(jump) > std::numbers::pi)) continue;
@@ -96,7 +67,7 @@ void doubt_units(const Chain& chain, const Table& table, const TimeTable& motion
                      " [s]'; a scene may say so, too: `columns: {time: \"" + clock + " [ms]\"}`");
   for (std::size_t i = 0; i < motion.groups[0].size(); ++i) {
     const std::size_t column = motion.columns[0][i];
-    if (!table.units[column].empty() || !turns(chain, i)) continue;
+    if (!table.units[column].empty() || !freedom_turns(chain, i)) continue;
     double largest = 0;
     for (const double q : motion.groups[0][i]) largest = std::max(largest, std::fabs(q));
     if (!(largest > 2 * std::numbers::pi)) continue;
@@ -336,7 +307,7 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
                 {file});
   if (motion.t.size() < 2)
     throw Error(ExitCode::bad_input, "holds one row, which is a pose and no motion: a motion takes two rows or more", {file});
-  check_units(chain, *table_, motion);
+  check_table_units(chain, *table_, motion, kQuantities);
   check_turns(chain, *table_, motion);
   t_ = motion.t;
   second_ = *factor_of_unit(table_->units[std::size_t(table_->find(names.time.name))]);

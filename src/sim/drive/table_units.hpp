@@ -1,0 +1,19 @@
+// Units that the columns of a table tell, held against what they are to be.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/csv.hpp"
+#include "model/chain.hpp"
+
+namespace chainreel {
+
+// Whether the freedom turns; none of one that several joints read, each in its own way, nor of a floating base.
+bool freedom_turns(const Chain& chain, std::size_t freedom);
+
+// What turns is no length, and what slides no angle. `quantities`: q, qd, qdd or tau of each group of the table's columns. Throws Error (bad input) that
+// names the column. Of freedoms that are no joint's own number nothing is known.
+void check_table_units(const Chain& chain, const Table& table, const TimeTable& columns, const std::vector<std::string>& quantities);
+
+}  // namespace chainreel
