@@ -19,7 +19,7 @@ std::string symbols_page() {
       {"`J`, `Jd_qd`", "", "Jacobian of the end effector (in the plane of the chain, or world x y z); its acceleration at qdd = 0"},
       {"`Lambda_inv`", "1/kg", "J M^-1 J^T, finite at every pose; under constraints of what they leave free"},
       {"`Lambda`", "kg", "its inverse, J^-T M J^-1 where J is square: the effective mass. Null where a direction is singular"},
-      {"`E`", "J", "kinetic + potential, and in tables and plots that of springs (torques linear in a coordinate); potential energy is zero at the world's origin"},
+      {"`E`", "J", "kinetic + potential, and in tables and plots that of springs (torques that are texts linear in their joint's own coordinate and rate; none of `pd`); potential energy is zero at the world's origin"},
   };
   const std::vector<std::vector<std::string>> rows{
       {"constraint", "its rows", "lambda > 0: the robot presses .."},
