@@ -346,8 +346,9 @@ YamlDocument panel_document(const YamlDocument& whole, std::size_t index) {
   const auto says = [&](const std::string& key) {
     return std::any_of(changes.begin(), changes.end(), [&](const auto& pair) { return pair.first.Scalar() == key || lies_below(pair.first.Scalar(), key); });
   };
-  for (const char* key : kKeysOfRuns)
-    if (motion.IsDefined() && !motion.IsNull() && !says(key)) panel.root.remove(key);
+  if (motion.IsDefined() && !motion.IsNull())
+    for (const char* key : kKeysOfRuns)
+      if (!says(key)) panel.root.remove(key);
   return panel;
 }
 

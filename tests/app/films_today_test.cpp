@@ -90,9 +90,7 @@ TEST(FilmOfToday, FindsWhatPicturesWithoutAuditsShow) {
   // All come back by the commands that are told, with what --set changed.
   const std::string commands = asked({"--commands"}).out;
   EXPECT_THAT(commands, AllOf(HasSubstr("chainreel snapshot "), HasSubstr("--at 0.1s --set theme=dark -o"), HasSubstr("chainreel ellipse "), Not(HasSubstr("#"))));
-  RunOptions shell;
-  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
-  ASSERT_EQ(run_command({"sh", "-e", "-c", commands}, shell).status, 0);
+  ASSERT_EQ(run_told(commands).status, 0);
   EXPECT_EQ(asked().status, 0) << asked().out;
   // Nothing is run for which nobody knows what --set changed.
   ASSERT_EQ(run_program({"render", scene, "--quiet", "--at", "0.1", "--set", "theme=dark", "-o", folder.file("docs/r.png")}).status, 0);
@@ -131,9 +129,7 @@ TEST(FilmOfToday, AsksWhereNamedPosesAndEventsAreNow) {
   EXPECT_EQ(asked("events").status, 0) << asked("events").out;
   folder.write("a.yaml", page + "start: {q: [0.4, 0]}\n");
   EXPECT_EQ(asked("events").status, 1);
-  RunOptions shell;
-  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
-  ASSERT_EQ(run_command({"sh", "-e", "-c", asked("events", {"--commands"}).out}, shell).status, 0);
+  ASSERT_EQ(run_told(asked("events", {"--commands"}).out).status, 0);
   EXPECT_EQ(asked("events").status, 0) << asked("events").out;
   ASSERT_EQ(show(folder.file("now.png")), 0);
   EXPECT_TRUE(read_png(low).bgra == read_png(folder.file("now.png")).bgra);
@@ -155,9 +151,7 @@ TEST(FilmOfToday, KnowsTheSizeThatAPictureWasAskedFor) {
   EXPECT_THAT(asked().out, AllOf(HasSubstr("a.png is what "), HasSubstr("b.png is what "), HasSubstr("c.pdf is what ")));
   folder.write("a.yaml", read_whole_file(scene) + "title: T\n");
   EXPECT_EQ(asked().status, 1);
-  RunOptions shell;
-  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
-  ASSERT_EQ(run_command({"sh", "-e", "-c", asked({"--commands"}).out}, shell).status, 0) << asked({"--commands"}).out;
+  ASSERT_EQ(run_told(asked({"--commands"}).out).status, 0) << asked({"--commands"}).out;
   EXPECT_EQ(asked().status, 0) << asked().out;
   EXPECT_EQ(read_png(folder.file("docs/a.png")).width, 320);
   EXPECT_EQ(read_png(folder.file("docs/b.png")).width, 331) << "84 mm at 100 dpi";
@@ -171,9 +165,7 @@ TEST(FilmOfToday, BringsBackPicturesOfTheirInstantsAndTexts) {
   const std::string picture = read_whole_file(folder.file("docs/s.png"));
   const auto asked = [&] { return run_program({"check", folder.file("docs"), "--today"}); };
   const auto make_anew = [&] {
-    RunOptions shell;
-    shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
-    EXPECT_EQ(run_command({"sh", "-e", "-c", run_program({"check", folder.file("docs"), "--today", "--commands"}).out}, shell).status, 0);
+    EXPECT_EQ(run_told(run_program({"check", folder.file("docs"), "--today", "--commands"}).out).status, 0);
   };
   fs::remove(folder.file("docs/s.png"));
   EXPECT_THAT(asked().out, HasSubstr("s.png is gone"));
@@ -231,9 +223,7 @@ TEST(FilmOfToday, OfAFolderFindsItsScenesAndNamesWhatChanged) {
   EXPECT_THAT(gone.out, HasSubstr("b.webm is gone: the audit beside it tells of it"));
   EXPECT_THAT(gone.err, AllOf(HasSubstr("1 file of 2 is not what its scene shows today"), Not(HasSubstr("b.srt"))));
   EXPECT_TRUE(Json::parse(run_program({"check", folder.file("docs"), "--today", "--json"}).out)["films"][1]["is_gone"]);
-  RunOptions shell;
-  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
-  ASSERT_EQ(run_command({"sh", "-e", "-c", run_program({"check", folder.file("docs"), "--today", "--commands"}).out}, shell).status, 0);
+  ASSERT_EQ(run_told(run_program({"check", folder.file("docs"), "--today", "--commands"}).out).status, 0);
   EXPECT_EQ(asked().status, 0) << asked().out;
   // What cannot be told is no yes: another scene of that name is another one, and without an audit nothing tells where the scene lies.
   fs::rename(folder.file("scenes/a.yaml"), folder.file("a.yaml"));
@@ -273,9 +263,7 @@ TEST(FilmOfToday, TellsTheCommandsThatMakeItAnew) {
   ASSERT_EQ(json["films"].size(), 1u) << "of one film as of several";
   EXPECT_THAT(json["films"][0]["set"].dump(), HasSubstr("duration=0.1"));
   EXPECT_EQ(json["films"][0]["command"][0], "chainreel");
-  RunOptions shell;
-  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
-  ASSERT_EQ(run_command({"sh", "-e", "-c", stale.out}, shell).status, 0) << stale.out;
+  ASSERT_EQ(run_told(stale.out).status, 0) << stale.out;
   EXPECT_EQ(commands().status, 0) << commands().err;
   make(folder.file("wanted.mp4"));
   EXPECT_TRUE(read_whole_file(film) == read_whole_file(folder.file("wanted.mp4")));
@@ -286,7 +274,7 @@ TEST(FilmOfToday, TellsTheCommandsThatMakeItAnew) {
   const std::string both = run_program({"check", folder.file("two"), "--today", "--commands"}).out;
   EXPECT_EQ(std::ranges::count(both, '\n'), 1) << "one command made both";
   EXPECT_THAT(both, AllOf(HasSubstr("-o " + folder.file("two/c.gif")), HasSubstr("-o " + folder.file("two/poster.png"))));
-  ASSERT_EQ(run_command({"sh", "-e", "-c", both}, shell).status, 0) << both;
+  ASSERT_EQ(run_told(both).status, 0) << both;
   EXPECT_EQ(run_program({"check", folder.file("two"), "--today", "--commands"}).status, 0);
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder.file("two"))) names.push_back(entry.path().filename().string());
@@ -351,9 +339,7 @@ TEST(FilmOfToday, AsksTablesToo) {
   const std::string command = run_program({"check", folder.file("v"), "--today", "--commands"}).out;
   EXPECT_EQ(std::ranges::count(command, '\n'), 1);
   EXPECT_THAT(command, HasSubstr("-o " + folder.file("v/f.csv") + " --force"));
-  RunOptions shell;
-  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
-  ASSERT_EQ(run_command({"sh", "-e", "-c", command}, shell).status, 0);
+  ASSERT_EQ(run_told(command).status, 0);
   EXPECT_EQ(run_program({"check", folder.file("v"), "--today"}).status, 0);
   EXPECT_FALSE(fs::exists(folder.file("v/f.1.1.csv")));
   fs::remove(folder.file("v/f.2.csv"));
@@ -413,10 +399,8 @@ TEST(FilmOfToday, AsksTablesOfSimulateAndFiguresOfScenes) {
   EXPECT_THAT(asked().out, AllOf(HasSubstr("tau.csv is NOT what "), HasSubstr("q.csv: is another one, by its hash")));
   fs::remove(folder.file("docs/u.npz"));
   EXPECT_THAT(asked().out, HasSubstr("u.npz is gone"));
-  RunOptions shell;
-  shell.environment["PATH"] = fs::path(program_path()).parent_path().string() + ":" + std::getenv("PATH");
   const std::string commands = asked({"--commands"}).out;
-  ASSERT_EQ(run_command({"sh", "-e", "-c", commands}, shell).status, 0) << commands;
+  ASSERT_EQ(run_told(commands).status, 0) << commands;
   EXPECT_EQ(asked().status, 0) << asked().out << asked().err;
   EXPECT_TRUE(before["t.csv"] == read_whole_file(folder.file("docs/t.csv")));
   EXPECT_FALSE(before["u.npz"] == read_whole_file(folder.file("docs/u.npz")));

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <chrono>
 #include <cstring>
 #include <stdexcept>
@@ -120,6 +121,11 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const RunOp
   std::vector<std::string> command{program_path()};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return run_command(command, options);
+}
+
+ProgramResult run_told(const std::string& lines, const std::string& folder) {
+  const std::string program = program_path();
+  return run_command({"sh", "-e", "-c", lines}, {.folder = folder, .environment = {{"PATH", program.substr(0, program.rfind('/')) + ":" + std::getenv("PATH")}}});
 }
 
 ProgramResult run_command(const std::vector<std::string>& command, const RunOptions& options) {

@@ -42,6 +42,9 @@ std::string program_path();
 // `chainreel ARGUMENTS...`. Throws std::runtime_error where the program cannot be started.
 ProgramResult run_program(const std::vector<std::string>& arguments, const RunOptions& options = {});
 
+// Lines that the program told, in a shell that ends with the first that fails and finds the built program by its name.
+ProgramResult run_told(const std::string& lines, const std::string& folder = "");
+
 // Any command; command[0] is looked up in PATH.
 ProgramResult run_command(const std::vector<std::string>& command, const RunOptions& options = {});
 

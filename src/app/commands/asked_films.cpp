@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "app/cli/streams.hpp"
-#include "app/commands/command_inputs.hpp"
 #include "app/film/clip_memory.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
@@ -125,17 +124,6 @@ class ScenesRemembered {
 };
 
 }  // namespace
-
-std::string first_file_of(const Json& figure) {
-  if (!word_of(figure, "model_sha256").empty()) return word_of(figure, "model");
-  const Json words = figure.value("arguments", Json::array()), files = figure.value("files", Json::array());
-  if (!figure.contains(kInputs) || !words.is_array() || !files.is_array()) return "";
-  for (const Json& file : files) {
-    const std::size_t i = file.is_number_unsigned() ? file.get<std::size_t>() : 0;
-    if (i > 0 && i < words.size() && words[i].is_string() && words[i - 1] != Json("--package")) return words[i].get<std::string>();
-  }
-  return "";
-}
 
 bool is_table(const std::string& path) {
   return find_output_format(path, Shows::table) != nullptr;

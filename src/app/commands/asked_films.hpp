@@ -38,9 +38,6 @@ AskedFilms asked_films(const std::vector<std::string>& paths);
 // lies beside the files that it needs. Throws Error (exit 3) where there is none.
 std::string scene_behind(const AskedFilm& film);
 
-// The model or scene of a figure that remembers what it said; "" of others.
-std::string first_file_of(const Json& figure);
-
 bool is_table(const std::string& path);
 
 }  // namespace chainreel

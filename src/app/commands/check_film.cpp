@@ -13,9 +13,8 @@
 #include "app/cli/shell_word.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/asked_films.hpp"
-#include "app/commands/comparison.hpp"
-#include "app/commands/figure.hpp"
 #include "app/commands/command_inputs.hpp"
+#include "app/commands/comparison.hpp"
 #include "app/commands/paper_film.hpp"
 #include "app/commands/remaking.hpp"
 #include "app/commands/table_record.hpp"
@@ -157,7 +156,10 @@ std::vector<ClipMemory> memories_today(PreparedFilm& film, const std::string& pa
   if (!event.empty()) at = instants_asked(film, {{0, event, "event " + event}}).front();
   memories.back().audit["at"] = at;
   const Fonts fonts(families_of(film.scene));
-  if (at.get<double>() >= 0 && at.get<double>() <= film.scene.duration) memories.push_back(moment_at(film, at.get<double>(), fonts).memory);
+  if (at.get<double>() >= 0 && at.get<double>() <= film.scene.duration) {
+    memories.push_back(moment_at(film, at.get<double>(), fonts).memory);
+    memories.back().audit.update(told_alone(film));
+  }
   for (ClipMemory& memory : memories) {
     if (!event.empty()) memory.audit[kAtEvent] = event;
     if (paper.is_given()) memory.audit[kPaper] = to_json(paper);

@@ -91,16 +91,11 @@ std::vector<std::string> changes_of(const Json& before, const Json& now) {
 
 }  // namespace
 
-std::size_t begin_of_path(const std::vector<std::string>& words, std::size_t file) {
-  return file > 0 && words[file - 1] == "--package" ? words[file].find('=') + 1 : 0;
-}
-
 std::vector<std::string> words_from(const Command& command, const std::string& folder) {
   std::vector<std::string> words = command.words();
   for (const std::size_t i : command.files()) {
-    const std::size_t begin = begin_of_path(words, i);
-    const std::string path = path_from(folder, words[i].substr(begin));
-    words[i].replace(begin, std::string::npos, begin == 0 && path.starts_with('-') ? "./" + path : path);  // else a flag
+    const std::size_t begin = begin_of_path(words[i], words[i - 1]);
+    words[i].replace(begin, std::string::npos, path_from(folder, words[i].substr(begin)));
   }
   return words;
 }

@@ -9,11 +9,6 @@
 
 namespace chainreel {
 
-// Under this key: what the files of a figure's or a table's command say.
-inline constexpr const char* kInputs = "inputs";
-
-// Where the path begins of a word that names a file: behind the = of --package NAME=FOLDER.
-std::size_t begin_of_path(const std::vector<std::string>& words, std::size_t file);
 // The command's words with the paths of its files as found from that folder, for where the command is remembered.
 std::vector<std::string> words_from(const Command& command, const std::string& folder);
 

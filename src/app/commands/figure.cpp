@@ -122,10 +122,15 @@ FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual,
   }
 }
 
-void write_figure(const FigureOptions& options, const Picture& picture, const Fonts& fonts, const std::string& path, bool overwrite) {
-  const PixelSize size = size_of(options);
-  ClipMemory memory = memory_of_figure(*options.command, std::filesystem::path(path).stem().string());
+ClipMemory memory_of_chart(const FigureOptions& options) {
+  ClipMemory memory = memory_of_figure(*options.command, "");
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
+  return memory;
+}
+
+void write_figure(const FigureOptions& options, const Picture& picture, const Fonts& fonts, ClipMemory memory, const std::string& path, bool overwrite) {
+  const PixelSize size = size_of(options);
+  memory.title = std::filesystem::path(path).stem().string();
   write_picture(picture, size.width, size.height, fonts, path, overwrite, memory);
 }
 
@@ -138,14 +143,15 @@ bool FigureFiles::is_named(const std::string& path) const {
 std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw, const FigureNumbers& numbers, const Fonts& fonts) const {
   std::vector<std::string> written;
   std::optional<Picture> picture;
+  std::optional<ClipMemory> memory;
   for (const std::string& path : paths_) {
     written.push_back(path);
     if (is_table_path(path)) {
       write_numbers(path, numbers, overwrite_);
       continue;
     }
-    if (!picture) picture = draw();
-    write_figure(options_, *picture, fonts, path, overwrite_);
+    if (!picture) picture = draw(), memory = memory_of_chart(options_);
+    write_figure(options_, *picture, fonts, *memory, path, overwrite_);
   }
   for (const std::string& table : beside_) {
     write_text_file(table, numbers.csv, overwrite_);
@@ -165,7 +171,7 @@ bool measures(const std::vector<std::string>& words) {
 std::string first_file(const Command& command) {
   const std::vector<std::string> words = command.words();
   for (const std::size_t i : command.files())
-    if (begin_of_path(words, i) == 0) return words[i];
+    if (begin_of_path(words[i], words[i - 1]) == 0) return words[i];
   return "";
 }
 

@@ -46,8 +46,10 @@ void write_numbers(const std::string& path, const FigureNumbers& numbers, bool o
 
 ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fonts& fonts);
 
-// One picture, which remembers the words that made it.
-void write_figure(const FigureOptions& options, const Picture& picture, const Fonts& fonts, const std::string& path, bool overwrite);
+// What all pictures of a chart remember but their title, see memory_of_figure.
+ClipMemory memory_of_chart(const FigureOptions& options);
+// One of them, under its file's name as title.
+void write_figure(const FigureOptions& options, const Picture& picture, const Fonts& fonts, ClipMemory memory, const std::string& path, bool overwrite);
 
 // The files that -o names, or `usual`, checked before anything is measured: endings, doubles, and whether each may be written.
 class FigureFiles {

@@ -107,7 +107,7 @@ std::vector<std::string> foreign_beside(const std::vector<std::string>& command)
       for (const char* ending : {".json", ".txt", ".srt"}) look(named(ending));
     else if (is_table(output))
       look(output + ".json");
-    else if (verb == "energy" || verb == "stability" || verb == "fall" || verb == "sweep" || verb == "chart")
+    else if (verb == "energy" || verb == "stability" || verb == "fall" || verb == "sweep")
       look(named(".csv"));
   }
   return foreign;

@@ -149,11 +149,12 @@ void run_simulate(const SimulateOptions& options) {
     require_peaks(film.panels[i].simulation, wanted.peaks, "--peaks");
   }
   Json reports = Json::array();
+  TableRecords records(*options.command, options.common);
   for (const std::size_t i : chosen) {
     std::vector<std::string> paths;
     for (const std::string& output : outputs) paths.push_back(panel_table_path(output, i, alone));
     TableFiles files(paths, options.common);
-    const TableRecords records(*options.command, paths, outputs, options.common);
+    records.open(paths, outputs);
     reports.push_back(simulate_panel(film, film.panels[i], files, wanted, options, alone));
     records.write();
   }

@@ -204,9 +204,11 @@ void snapshot_scene(const SnapshotOptions& options) {
   if (options.paper.is_given()) set_paper_page(film, options.paper, fonts, options.common.quiet);
   Pictures pictures(options, place, names, video.width, video.height);
   Moments moments(film, fonts);
+  const Json alone = told_alone(film);
   std::vector<Json> numbers;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     Moment shown = moments.moment(instants[i]);
+    shown.memory.audit.update(alone);
     if (!asked[i].event.empty()) shown.memory.audit[kAtEvent] = asked[i].event;
     if (options.paper.is_given()) {
       shown.memory.width_mm = options.paper.width_mm;
@@ -248,9 +250,10 @@ std::vector<PosePicture> pose_pictures(const Chain& chain, const SnapshotOptions
 }
 
 // Of several files each remembers the command that makes it alone: its pose, whose name was the file's.
-ClipMemory memory_of_pose(const SnapshotOptions& options, const Chain& chain,
+// `memory`: what all have.
+ClipMemory memory_of_pose(ClipMemory memory, const SnapshotOptions& options, const Chain& chain,
                           const std::vector<PosePicture>& shown, std::size_t i) {
-  ClipMemory memory = memory_of_figure(*options.command, chain.name, options.file, shown[i].poses);
+  memory.figure["poses"] = shown[i].poses;
   Json words = Json::array();
   std::size_t pose = 0;
   const Json all = memory.figure["arguments"];
@@ -304,9 +307,10 @@ void snapshot_model(const SnapshotOptions& options) {
     figure.text_scale = text_scale_on(page, figure.text_scale);
   }
   Pictures pictures(options, place, names, figure.width, figure.height);
+  const ClipMemory memory = memory_of_figure(*options.command, chain.name, options.file, {});
   std::vector<Json> numbers;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    pictures.write(i, draw_pose_figure(chain, shown[i].poses, figure, fonts), fonts, memory_of_pose(options, chain, shown, i));
+    pictures.write(i, draw_pose_figure(chain, shown[i].poses, figure, fonts), fonts, memory_of_pose(memory, options, chain, shown, i));
     Json poses = Json::array();
     for (const std::vector<double>& q : shown[i].poses) poses.push_back(pose_report(chain, q));
     numbers.push_back({{"poses", poses}});

@@ -334,7 +334,8 @@ void draw_maps(const SweepOptions& options, const Grid& grid, const std::vector<
   const Scene scene = read_scene(options.scene, overrides_of(options.common));
   const Fonts fonts(families_of(scene));
   const Picture picture = stability_map(sweep_map(grid, scene, table, options.last, options.map), chart_look(options.figure, scene, fonts));
-  for (const std::string& path : maps) write_figure(options.figure, picture, fonts, path, options.common.force);
+  const ClipMemory memory = memory_of_chart(options.figure);
+  for (const std::string& path : maps) write_figure(options.figure, picture, fonts, memory, path, options.common.force);
 }
 
 void run_sweep(SweepOptions options) {
@@ -386,11 +387,11 @@ void run_sweep(SweepOptions options) {
     tables.front() = with_suffix(tables.front(), suffix);
     SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, tables, options.common.force, options.common.quiet, peaks, options.last};
     if (!maps.empty()) job.looks_at_names = [&](const std::vector<std::string>& names) { require_map_column(names, grid, options.last, options.map); };
-    std::optional<TableRecords> records;  // a share is no table yet
-    if (options.shard.empty()) records.emplace(*options.figure.command, tables, tables, options.common);
+    TableRecords records(*options.figure.command, options.common);
+    if (options.shard.empty()) records.open(tables, tables);  // a share is no table yet
     const SweepOutcome outcome = write_sweep_table(job);
     for (const std::string& path : tables) tell(path, outcome);
-    if (records) records->write();
+    records.write();
     if (!maps.empty()) {
       draw_maps(options, grid, maps, tables.front());
       for (const std::string& path : maps) tell(path, outcome);

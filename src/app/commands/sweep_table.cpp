@@ -191,7 +191,6 @@ class RowMaker {
   }
 
   std::string row_of(const Scene& scene, const Simulation& simulation, const Trajectory& run, const std::vector<Peak>& peaks) const {
-    const Chain& chain = simulation.chain;
     const bool as_expected =
         scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
     std::string trouble = run.trouble.empty() ? doubt_of(simulation, run) : run.trouble;

@@ -24,16 +24,16 @@ std::string record_of(const std::string& table) {
 
 }  // namespace
 
-TableRecords::TableRecords(const Command& command, const std::vector<std::string>& paths, const std::vector<std::string>& outputs, const CommonOptions& common)
-    : command_(command), inputs_(command_inputs(command.words(), command.files())) {
+void TableRecords::open(const std::vector<std::string>& paths, const std::vector<std::string>& outputs) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i] == "-" || table_format_of(paths[i]) == TableFormat::json) continue;
-    require_own_sidecar(record_of(paths[i]), common.force);
+    require_own_sidecar(record_of(paths[i]), common_.force);
     tables_.push_back({paths[i], outputs[i]});
   }
+  if (!tables_.empty() && inputs_.is_null()) inputs_ = command_inputs(command_.words(), command_.files());
 }
 
-void TableRecords::write() const {
+void TableRecords::write() {
   for (const One& table : tables_) {
     const std::string folder = folder_of(table.path);
     std::error_code code;
@@ -45,6 +45,7 @@ void TableRecords::write() const {
                       {kAuditedFiles, Json::array({audited_file(table.path)})}};
     write_text_file(record_of(table.path), record.dump(2) + "\n", true);
   }
+  tables_.clear();
 }
 
 RecordedCommand recorded_command(const Json& record, const std::string& folder, const std::string& path) try {

@@ -13,17 +13,19 @@ namespace chainreel {
 
 class TableRecords {
  public:
-  // Of those of the paths that are .csv or .npz; `outputs`: the -o of each. Reads the command's files. Throws Error (exit 6) where a file that is not ours has
-  // a record's name.
-  TableRecords(const Command& command, const std::vector<std::string>& paths, const std::vector<std::string>& outputs, const CommonOptions& common);
-  // When the tables are there. None is left of another command.
-  void write() const;
+  TableRecords(const Command& command, const CommonOptions& common) : command_(command), common_(common) {}
+  // For those of the paths that are .csv or .npz, before they are computed; `outputs`: the -o of each. Reads the command's files, once. Throws Error (exit 6)
+  // where a file that is not ours has a record's name.
+  void open(const std::vector<std::string>& paths, const std::vector<std::string>& outputs);
+  // Of those that were opened, when the tables are there. None is left of another command.
+  void write();
 
  private:
   struct One {
     std::string path, output;
   };
   const Command& command_;
+  const CommonOptions& common_;
   std::vector<One> tables_;
   Json inputs_;
 };

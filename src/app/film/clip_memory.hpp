@@ -10,6 +10,9 @@
 
 namespace chainreel {
 
+// In a figure, and in the record of a table, under this key: what the files of its command said, see command_inputs.
+inline constexpr const char* kInputs = "inputs";
+
 struct ClipMemory {
   std::string title;
   std::string description;  // one sentence

@@ -120,6 +120,10 @@ std::string word_of(const Json& json, const char* key) {
   return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
+std::size_t begin_of_path(const std::string& word, const std::string& before) {
+  return before == "--package" ? word.find('=') + 1 : 0;
+}
+
 std::string torque_function_in(const Json& audit) {
   if (!audit.is_object()) return "";
   std::string words = word_of(audit, "torque_function");
@@ -176,8 +180,7 @@ std::vector<std::pair<std::size_t, std::size_t>> file_words_of(const Json& figur
   for (const Json& file : files) {
     const std::size_t index = file.is_number_unsigned() ? file.get<std::size_t>() : 0;
     if (index == 0 || index >= words.size() || !words[index].is_string()) continue;
-    const bool is_package = words[index - 1] == Json("--package");
-    found.emplace_back(index, is_package ? words[index].get<std::string>().find('=') + 1 : 0);
+    found.emplace_back(index, begin_of_path(words[index], words[index - 1].is_string() ? words[index - 1].get<std::string>() : ""));
   }
   return found;
 }
@@ -187,6 +190,14 @@ std::string moved_path(const std::string& path, const ClipOrigin& origin) {
 }
 
 }  // namespace
+
+std::string first_file_of(const Json& figure) {
+  if (!word_of(figure, "model_sha256").empty()) return word_of(figure, "model");
+  if (!figure.contains(kInputs)) return "";
+  for (const auto& [index, begin] : file_words_of(figure))
+    if (begin == 0) return figure["arguments"][index].get<std::string>();
+  return "";
+}
 
 std::vector<WantedFile> files_wanted_by(const ClipMemory& memory) {
   std::vector<WantedFile> wanted;

@@ -17,6 +17,12 @@ std::string word_of(const Json& json, const char* key);
 // What a program of the user's drove it with, "the Python function f", by its audit: of all panels the first; "" of others.
 std::string torque_function_in(const Json& audit);
 
+// Where the path begins of a word of a command that names a file: behind the = of --package NAME=FOLDER. `before`: the word before it.
+std::size_t begin_of_path(const std::string& word, const std::string& before);
+
+// The model or scene of a figure that remembers what it said; "" of others.
+std::string first_file_of(const Json& figure);
+
 struct WantedFile {
   std::string path;    // relative to the folder that is sought
   std::string sha256;  // "": any

@@ -278,7 +278,8 @@ void SceneRun::picture(double at, const std::string& path, bool overwrite, std::
   state_->require_within(at);
   const Video& video = state_->film.scene.video;
   state_->watched([&] {
-    const Moment shown = state_->moment(at);
+    Moment shown = state_->moment(at);
+    shown.memory.audit.update(told_alone(state_->film));
     state_->note(shown, notes);
     write_picture(shown.picture, video.width, video.height, state_->own_fonts(), path, overwrite, shown.memory);
   });

@@ -15,13 +15,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Null unless it is an audit of ours.
-Json audit_at(const fs::path& path) {
+// Null unless it is an audit of ours, or the record x.csv.json of a table that a command by itself made, see kMadeBy.
+Json told_at(const fs::path& path) {
   std::error_code code;
   if (!fs::is_regular_file(path, code)) return nullptr;
   const Json json = parse_json(read_plain_file(path.string(), kLargestSidecar));
-  if (!json.is_object() || !json.contains("film_seconds") || !json.contains("versions")) return nullptr;
-  return json;
+  if (!json.is_object()) return nullptr;
+  const bool is_audit = json.contains("film_seconds") && json.contains("versions"), is_record = json.contains(kMadeBy) && json.contains(kAuditedFiles);
+  return is_audit || is_record ? json : Json();
+}
+
+// Null unless it is an audit.
+Json audit_at(const fs::path& path) {
+  Json told = told_at(path);
+  return told.is_object() && told.contains(kMadeBy) ? Json() : told;
 }
 
 // Texts bear no mark that a reader would not see; older audits do not tell of them.
@@ -34,17 +41,9 @@ bool is_known_text(const fs::path& path, const char* words_of_older_versions) {
   return hashes.value(path.extension().string(), Json()) == Json(sha256_of(text));
 }
 
-// x.csv.json of a table that a command by itself made, see kMadeBy.
-bool is_record_of_table(const fs::path& path) {
-  std::error_code code;
-  if (!fs::is_regular_file(path, code)) return false;
-  const Json json = parse_json(read_plain_file(path.string(), kLargestSidecar));
-  return json.is_object() && json.contains(kMadeBy) && json.contains(kAuditedFiles);
-}
-
 bool is_own(const fs::path& path) {
   const std::string ending = path.extension().string();
-  if (ending == ".json") return !audit_at(path).is_null() || is_record_of_table(path);
+  if (ending == ".json") return !told_at(path).is_null();
   if (ending == ".txt") return is_known_text(path, "times are those of the motion");
   if (ending == ".srt") return is_known_text(path, " --> ");
   if (ending == ".tex" || ending == ".csv") {
@@ -137,7 +136,7 @@ Json audit_without(const std::string& path, const std::vector<std::string>& file
 
 bool is_changed_since(const std::string& path) {
   try {
-    const Json audit = audit_at(audit_path_of(path));
+    const Json audit = told_at(audit_path_of(path));
     if (audit.is_null()) return false;
     const Json now = audited_file(path);
     for (const Json& one : audited_files_of(audit))

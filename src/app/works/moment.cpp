@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/film/clip_origin.hpp"
 #include "app/film/instants.hpp"
 #include "app/report/alt_text.hpp"
 #include "app/report/instant_report.hpp"
 #include "app/report/run_report.hpp"
-#include "app/film/clip_origin.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/works/part.hpp"
 #include "core/data_folder.hpp"
@@ -36,11 +36,6 @@ struct Moments::State {
         report(film_report(runs, pictures, frames_of_film(runs, instants.added))) {
     report.writes = Writes::pictures;
     memory = memory_of(report);
-    // No audit lies beside a picture by itself.
-    memory.audit[kSet] = film.scene.set;
-    for (const PreparedScene& panel : film.panels) memory.audit[kMechanisms].push_back(mechanism_record(panel));
-    if (const std::string meshes = meshes_hash(film); !meshes.empty()) memory.audit[kMeshesHash] = meshes;
-    if (!name_of_shipped(film.scene.file).empty()) memory.audit[kShipped] = true;
     warnings = warning_lines(report);
   }
 
@@ -93,6 +88,14 @@ struct Moments::State {
     return {{"at", runs.times()[std::size_t(frame)]}, {"panels", panels}};
   }
 };
+
+Json told_alone(const PreparedFilm& film) {
+  Json told{{kSet, film.scene.set}, {kMechanisms, Json::array()}};
+  for (const PreparedScene& panel : film.panels) told[kMechanisms].push_back(mechanism_record(panel));
+  if (const std::string meshes = meshes_hash(film); !meshes.empty()) told[kMeshesHash] = meshes;
+  if (!name_of_shipped(film.scene.file).empty()) told[kShipped] = true;
+  return told;
+}
 
 Moments::Moments(const PreparedFilm& film, const Fonts& fonts)
     : film_(film), fonts_(fonts), clock_(clock_of(film)) {}

@@ -26,6 +26,10 @@ struct Moment {
   Json numbers;                       // {"at", "panels": [what each shows]}
 };
 
+// What a picture by itself remembers besides, in its audit, as none lies beside it: what the command line changed, its mechanisms and meshes, and whether its
+// scene came with the program.
+Json told_alone(const PreparedFilm& film);
+
 // Several of one film, each as it is alone, whichever others there are: those at its frames share one run; an instant
 // between two frames is a sample more, which camera, trails and plots hold, too, and has a run of its own. The film
 // and fonts must outlive them.

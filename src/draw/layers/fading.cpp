@@ -230,14 +230,21 @@ double half_along(const TextLine& text, Point d) {
   return std::abs(d.x) * text.box.width() / 2 + std::abs(d.y) * text.box.height() / 2;
 }
 
-// Where a text stands at the edge of the scene that a line from the center along the unit vector d leaves it through.
+// Where it stands at the edge of the scene that a line from the center along the unit vector d leaves it through: beside the band, on either side.
+std::array<Rect, 2> boxes_beside_edge(const TextLine& text, Point center, Point d, double half_width, const Rect& scene) {
+  const Point side = normal_to(d), foot = center + std::max(way_out(scene, center, d) - half_along(text, d) - kSignAir, 0.0) * d;
+  const double off = half_width + half_along(text, side) + kSignAir;
+  return {box_near(text, foot + off * side, scene), box_near(text, foot - off * side, scene)};
+}
+
+// .. on the line itself, where there is room.
 Rect box_at_edge(const TextLine& text, Point center, Point d, double half_width, const Rect& scene) {
   const double clear = half_along(text, d) + kSignAir, along = way_out(scene, center, d) - clear;
   if (along > clear + size::kEndEffector) return box_near(text, center + along * d, scene);
   // Too near to the edge: beside the band, on the side that has more room.
   const Point side = normal_to(d), foot = center + std::max(along, 0.0) * d;
   const bool left = way_out(scene, foot, side) > way_out(scene, foot, -1 * side);
-  return box_near(text, foot + ((left ? 1 : -1) * (half_width + half_along(text, side) + kSignAir)) * side, scene);
+  return boxes_beside_edge(text, center, d, half_width, scene)[left ? 0 : 1];
 }
 
 void draw_at_edges(Picture& picture, const TextLine& text, Point center, Point d, double half_width, const EllipseStyle& style, int clip,
@@ -249,13 +256,6 @@ void draw_at_edges(Picture& picture, const TextLine& text, Point center, Point d
     else
       draw_text(picture, text, {box.x0 - text.box.x0, box.y0 - text.box.y0}, clip);
   }
-}
-
-// Beside the band there, on either side.
-std::array<Rect, 2> boxes_beside_edge(const TextLine& text, Point center, Point d, double half_width, const Rect& scene) {
-  const Point side = normal_to(d), foot = center + std::max(way_out(scene, center, d) - half_along(text, d) - kSignAir, 0.0) * d;
-  const double off = half_width + half_along(text, side) + kSignAir;
-  return {box_near(text, foot + off * side, scene), box_near(text, foot - off * side, scene)};
 }
 
 // A film's number has one place at each frame: the plan moves it where the axis leads.

@@ -67,15 +67,14 @@ void look_at_span(Scene& scene, const std::string& path, const std::vector<doubl
 void look_at_controls(Scene& scene, const Chain& chain) {
   for (const NamedControl& one : controls_of(scene, chain)) {
     Control& control = *one.control;
-    const auto look = [&](const std::string& path, const std::optional<Outside>& outside, const std::string& what) {
+    const auto look = [&](const std::string& path, const std::optional<Outside>& outside, const std::string& what, bool is_log = false) {
       if (path.empty() || is_meant(outside)) return;
-      const bool is_log = &path == &control.csv;
       std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, is_log ? control.columns : ColumnNames{}).t;
       if (is_log) set_clock(scene, control, t);
       look_at_span(scene, path, t, outside, what, control.place);
     };
     const std::string torque = "the torque of its nearest row is", pose = "the pose of its nearest row is";
-    look(control.csv, control.outside, torque);
+    look(control.csv, control.outside, torque, true);
     look(control.inverse_of, control.outside, pose);
     for (const std::optional<Feedback>& feedback : {control.pd, control.computed_torque})
       if (feedback) look(feedback->trajectory, feedback->outside, pose);
@@ -93,7 +92,7 @@ bool take_motion(Scene& scene, const Chain& chain, std::vector<double>& q, std::
     found = true;
     path = one.control->inverse_of;
     std::vector<double> at(std::size_t(chain.nv)), rate(at), acceleration(at);
-    make_table_reference(path, chain.coordinate_names)->evaluate(0, at, rate, acceleration);
+    make_table_reference(path, chain)->evaluate(0, at, rate, acceleration);
     for (std::size_t i = one.first; i < one.end; ++i) {
       q[i] = at[i];
       qd[i] = rate[i];

@@ -308,16 +308,9 @@ std::vector<T> spread(const std::vector<T>& given, const Chain& chain, const std
               place);
 }
 
-std::unique_ptr<Reference> table_reference(const Chain& chain, const std::string& path) {
-  const std::vector<std::string> quantities{"q", "qd", "qdd"};
-  const Table file = read_table(path, {});
-  check_table_units(chain, file, time_table_of(file, quantities, chain.coordinate_names), quantities);
-  return make_table_reference(path, chain.coordinate_names);
-}
-
 std::unique_ptr<Reference> reference_of(const Chain& chain, const Feedback& feedback,
                                         const Parameters& parameters, const Place& place) {
-  if (!feedback.trajectory.empty()) return table_reference(chain, feedback.trajectory);
+  if (!feedback.trajectory.empty()) return make_table_reference(feedback.trajectory, chain);
   const auto entries = [&](const std::vector<Entry>& given, const char* key) {
     return given.empty() ? given : spread(given, chain, key, place);
   };
@@ -355,7 +348,7 @@ std::unique_ptr<TorqueLaw> make_control(const Chain& chain, const Control& contr
   }
   if (!control.inverse_of.empty())
     parts.push_back(
-        within(std::make_unique<InverseTorque>(chain, table_reference(chain, control.inverse_of)),
+        within(std::make_unique<InverseTorque>(chain, make_table_reference(control.inverse_of, chain)),
                control.inverse_of, control.outside));
   const auto gains = [&](const std::vector<double>& given, const char* key) {
     return spread(given, chain, key, control.place);

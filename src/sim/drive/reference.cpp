@@ -11,6 +11,7 @@
 #include "expr/instants.hpp"
 #include "expr/pulses.hpp"
 #include "sim/drive/prices.hpp"
+#include "sim/drive/table_units.hpp"
 
 namespace chainreel {
 namespace {
@@ -190,10 +191,13 @@ std::unique_ptr<Reference> make_table_reference(const TimeTable& table, const st
   return reference;
 }
 
-std::unique_ptr<Reference> make_table_reference(const std::string& path, const std::vector<std::string>& freedoms) {
-  const TimeTable table = read_time_table(path, {"q", "qd", "qdd"}, freedoms);
+std::unique_ptr<Reference> make_table_reference(const std::string& path, const Chain& chain) {
+  const std::vector<std::string> quantities{"q", "qd", "qdd"};
+  const Table file = read_table(path, {});
+  const TimeTable table = time_table_of(file, quantities, chain.coordinate_names);
+  check_table_units(chain, file, table, quantities);
   if (table.groups[0].empty())
-    throw Error(ExitCode::bad_input, "has no columns q1 to q" + std::to_string(freedoms.size()) + ", one a freedom",
+    throw Error(ExitCode::bad_input, "has no columns q1 to q" + std::to_string(chain.coordinate_names.size()) + ", one a freedom",
                 {path});
   return make_table_reference(table, path);
 }

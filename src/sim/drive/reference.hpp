@@ -9,6 +9,7 @@
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/scalar.hpp"
+#include "model/chain.hpp"
 #include "sim/drive/probe.hpp"
 
 namespace chainreel {
@@ -47,8 +48,8 @@ std::unique_ptr<Reference> make_expression_reference(const std::vector<Entry>& q
                                                      const Parameters& parameters);
 
 // From a CSV with t,q1.. and maybe qd1.., qdd1.., or q.NAME of each freedom: cubic splines; what is absent is the spline's
-// derivative. Beyond the rows it stands still at the nearest one.
-std::unique_ptr<Reference> make_table_reference(const std::string& path, const std::vector<std::string>& freedoms);
+// derivative. Beyond the rows it stands still at the nearest one. Throws Error (bad input) for a unit of another kind, too.
+std::unique_ptr<Reference> make_table_reference(const std::string& path, const Chain& chain);
 // The same of a table with the quantities q, qd, qdd, in the file `path`.
 std::unique_ptr<Reference> make_table_reference(const TimeTable& table, const std::string& path);
 

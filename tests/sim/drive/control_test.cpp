@@ -327,9 +327,10 @@ TEST(Control, SaysWhatIsWrongWithItsTable) {
 
 TEST(Control, NamesTheRowWhereAMotionOverflows) {
   const TemporaryFolder folder;
+  const Chain chain = run_of("rr", {"0", "0"}, 1).chain;
   const auto error = [&](const std::string& rows) -> std::string {
     try {
-      make_table_reference(folder.write("q.csv", "t,q1,q2\n" + rows), {"a", "b"});
+      make_table_reference(folder.write("q.csv", "t,q1,q2\n" + rows), chain);
       return "";
     } catch (const Error& caught) {
       EXPECT_EQ(caught.code(), ExitCode::numerical);
