@@ -127,7 +127,11 @@ std::string found_file(const std::string& named, const std::string& ending) {
 
 std::string found_elsewhere(const std::string& named, const std::string& found) {
   if (named == found || fs::path(named).extension().empty()) return "";
-  return "there is no file " + named + " here: the program's own is taken, " + found;
+  return not_there(named, "here", found);
+}
+
+std::string not_there(const std::string& named, const std::string& where, const std::string& found) {
+  return "there is no file " + named + " " + where + ": the program's own is taken, " + found;
 }
 
 }  // namespace chainreel

@@ -33,5 +33,7 @@ std::string found_file(const std::string& named, const std::string& ending = "")
 
 // Of a name with an ending, which looks like a file here, and of which found_file gave another one: what is to be said. "": nothing.
 std::string found_elsewhere(const std::string& named, const std::string& found);
+// In words; `where`: "here".
+std::string not_there(const std::string& named, const std::string& where, const std::string& found);
 
 }  // namespace chainreel

@@ -69,9 +69,10 @@ void find_directions(EffectiveMass& effective, double scale, const std::function
   effective.mobility = eigen.values.cwiseMax(0.0);  // round-off may leave a zero below zero
   effective.directions = std::move(eigen.vectors);
   const double largest = scale > 0 ? scale : effective.mobility.maxCoeff();
+  const double least = scale > 0 ? kForbiddenFraction * scale : kSingularFraction * effective.mobility.maxCoeff();
   for (Eigen::Index k = 0; k < effective.mobility.size(); ++k) {
     const double mobility = effective.mobility(k);
-    const bool is_small = !(mobility > kSingularFraction * largest);
+    const bool is_small = !(mobility > least);
     effective.is_infinite.push_back(is_small && (!(mobility > kRounding * largest) || across(effective.directions.col(k))));
     if (effective.is_infinite.back()) effective.singular_directions.emplace_back(effective.directions.col(k));
   }

@@ -15,7 +15,9 @@ namespace chainreel {
 // An eigenvalue of Lambda_inv below this fraction of the largest counts as zero, infinite mass in that direction, where no
 // joint moves the frame along it: where its direction has less than kAcross of each column of J, angular rows measured in
 // lengths of the mechanism. Heavy axes beside light ones are finite.
-inline constexpr double kSingularFraction = 1e-6;
+inline constexpr double kSingularFraction = 1e-10;
+// The same of a mechanism whose constraints forbid motions, of what the chain could do without them: rounding of the rows is left there.
+inline constexpr double kForbiddenFraction = 1e-6;
 inline constexpr double kAcross = 1e-2;
 
 struct EffectiveMass {
@@ -31,8 +33,8 @@ struct EffectiveMass {
 // Uses ws.J, ws.M, ws.tau and ws.qdd on the way.
 EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task);
 
-// Fills mobility, directions, is_infinite and singular_directions from Lambda_inv. What lies below kSingularFraction of `scale`,
-// 1/kg, counts as zero; 0: of the largest mobility. `across` tells whether no joint moves the frame along a unit vector in the
+// Fills mobility, directions, is_infinite and singular_directions from Lambda_inv. What lies below kForbiddenFraction of `scale`,
+// 1/kg, counts as zero; 0: below kSingularFraction of the largest mobility. `across` tells whether no joint moves the frame along a unit vector in the
 // basis.
 void find_directions(EffectiveMass& effective, double scale, const std::function<bool(const Eigen::VectorXd&)>& across);
 // Lambda from mobility and directions, none of them singular.

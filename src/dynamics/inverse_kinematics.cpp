@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kStarts = 48;        // along the common bend of the joints behind the first
+constexpr int kBends = 192;        // of it, between which it is sought
+constexpr int kHalvings = 60;
 constexpr int kSlideStarts = 9;    // of a first joint that slides
 constexpr int kTried = 8;          // starts, the nearest first
 constexpr int kMostSteps = 200;
@@ -88,20 +90,22 @@ void PointSolver::find_reach() {
   reach_ += (end - before).norm();
 }
 
+void PointSolver::bend_alike(std::vector<double>& q, double s) const {
+  for (std::size_t b = 2; b < chain_.bodies.size(); ++b) {
+    const Body& body = chain_.bodies[b];
+    const double bend = (elbow_ == Elbow::up ? -1 : 1) * joint_sign(int(b)) * s * kPi;
+    q[std::size_t(body.joint.q_index)] = slides(body) ? lower(body) + s * (upper(body) - lower(body)) : bend;
+  }
+}
+
 void PointSolver::make_starts() {
   const Body& first = chain_.bodies[1];
   const int firsts = slides(first) ? kSlideStarts : 1;
   for (int i = 0; i < firsts; ++i)
     for (int k = 0; k < kStarts; ++k) {
-      const double s = (k + 0.5) / kStarts;
       Start start{std::vector<double>(std::size_t(chain_.nq), 0.0), {}};
       if (slides(first)) start.q[0] = lower(first) + (i + 0.5) / firsts * (upper(first) - lower(first));
-      for (std::size_t b = 2; b < chain_.bodies.size(); ++b) {
-        const Body& body = chain_.bodies[b];
-        const double bend = (elbow_ == Elbow::up ? -1 : 1) * joint_sign(int(b)) * s * kPi;
-        start.q[std::size_t(body.joint.q_index)] =
-            slides(body) ? lower(body) + s * (upper(body) - lower(body)) : bend;
-      }
+      bend_alike(start.q, (k + 0.5) / kStarts);
       start.tip = tip(start.q);
       starts_.push_back(std::move(start));
     }
@@ -160,11 +164,47 @@ bool PointSolver::improve(std::vector<double>& q, const Eigen::Vector2d& point) 
   return error.norm() <= kReached;
 }
 
+// The first joint turns, and does not change how far the end effector is from it: the least common bend at which that is right.
+std::optional<std::vector<double>> PointSolver::bent_alike(const Eigen::Vector2d& point) {
+  const Eigen::Vector2d base = in_plane(middle_), d = point - base;
+  std::vector<double> q(std::size_t(chain_.nq), 0.0);
+  const auto too_far = [&](double s) {
+    bend_alike(q, s);
+    return (tip(q) - base).norm() - d.norm();
+  };
+  const auto turned_there = [&]() -> std::optional<std::vector<double>> {
+    std::vector<double> there = q;
+    const Eigen::Vector2d seen = tip(q) - base;
+    if (d.norm() > kReached) there[0] += joint_sign(1) * (std::atan2(d.y(), d.x()) - std::atan2(seen.y(), seen.x()));
+    if (accept(there, point)) return there;
+    return std::nullopt;
+  };
+  double last = 0, at_last = too_far(0);
+  if (std::abs(at_last) <= kReached / 10)
+    if (auto found = turned_there()) return found;
+  for (int k = 1; k <= kBends; ++k) {
+    const double next = double(k) / kBends, at_next = too_far(next);
+    if ((at_last > 0) != (at_next > 0)) {
+      double low = last, high = next;
+      for (int i = 0; i < kHalvings; ++i) {
+        const double middle = (low + high) / 2;
+        ((too_far(middle) > 0) == (at_last > 0) ? low : high) = middle;
+      }
+      too_far(high);
+      if (auto found = turned_there()) return found;
+    }
+    last = next, at_last = at_next;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::vector<double>> PointSolver::pose_at(const Eigen::Vector3d& where) {
   const Eigen::Vector2d point = in_plane(where), base = in_plane(middle_), d = point - base;
   if (d.norm() > reach_) return std::nullopt;
   const bool turns = !slides(chain_.bodies[1]);
   if (chain_.nv == 2 && turns && !slides(chain_.bodies[2])) return closed_form(point);
+  if (turns)
+    if (auto alike = bent_alike(point)) return alike;
 
   // A first joint that turns brings each start into the direction of the point.
   std::vector<std::pair<double, const Start*>> order;

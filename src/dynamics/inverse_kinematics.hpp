@@ -16,8 +16,8 @@ enum class Elbow { up, down };
 inline constexpr double kReached = 1e-10;
 
 // For planar chains of two or three one-freedom joints, whose prismatic ones have limits. Two revolute joints are solved
-// in closed form (K. Lynch, F. Park, Modern Robotics, ch. 6.1), all others by damped least squares from several
-// starts (ch. 6.2), in which joints behind the first bend alike.
+// in closed form (K. Lynch, F. Park, Modern Robotics, ch. 6.1); of three whose first one turns the joints behind it bend alike,
+// as little as need be, where that leads there; all others are found by damped least squares from several starts (ch. 6.2) that are bent so.
 class PointSolver {
  public:
   // Throws Error (usage) for any other chain.
@@ -41,6 +41,8 @@ class PointSolver {
   Eigen::Vector2d in_plane(const Eigen::Vector3d& x) const { return {ex_.dot(x), ey_.dot(x)}; }
   Eigen::Vector2d tip(const std::vector<double>& q);
   std::optional<std::vector<double>> closed_form(const Eigen::Vector2d& point);
+  std::optional<std::vector<double>> bent_alike(const Eigen::Vector2d& point);
+  void bend_alike(std::vector<double>& q, double s) const;  // s: of half a turn, or of a slider's way
   bool improve(std::vector<double>& q, const Eigen::Vector2d& point);
   bool accept(std::vector<double>& q, const Eigen::Vector2d& point);
   double joint_sign(int body) const;

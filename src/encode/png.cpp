@@ -128,6 +128,7 @@ std::string file_of(const Image& image, const std::map<std::string, std::string>
     append_chunk(png, "pHYs", both + both + '\x01');
   }
   append_text_chunks(png, text, path);
+  if (!text.empty()) append_text_chunks(png, {{kPixels, pixels_checksum(image)}}, path);
   // Chunks of 2^31 bytes and more are not allowed.
   const std::string pixels = compressed(rows_of(image, opaque));
   constexpr std::size_t kLargestChunk = std::size_t(1) << 30;
@@ -157,6 +158,14 @@ FilePtr open_for_reading(const std::string& path) {
 }
 
 }  // namespace
+
+std::string pixels_checksum(const Image& image) {
+  const std::string size = big_endian(std::size_t(image.width)) + big_endian(std::size_t(image.height));
+  const auto of_size = libdeflate_crc32(0, size.data(), size.size());
+  std::array<char, 9> digits{};
+  std::snprintf(digits.data(), digits.size(), "%08x", unsigned(libdeflate_crc32(of_size, image.bgra.data(), image.bgra.size())));
+  return digits.data();
+}
 
 void write_png(const std::string& path, const Image& image, const std::map<std::string, std::string>& text,
                double per_metre) {

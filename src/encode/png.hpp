@@ -27,6 +27,11 @@ Image read_png(const std::string& path);
 // The same of a file's bytes; errors name the path.
 Image decode_png(std::string_view bytes, const std::string& path);
 
+// Under this keyword write_png tells which pixels it wrote, as pixels_checksum has them.
+inline constexpr const char* kPixels = "chainreel pixels";
+// Of a picture as it is read, whatever its file's compression: CRC-32, eight hexadecimal digits.
+std::string pixels_checksum(const Image& image);
+
 // The texts that stand before the pixels, keyword to value. Throws Error (exit 3).
 std::map<std::string, std::string> read_png_text(const std::string& path);
 

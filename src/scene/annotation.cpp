@@ -22,6 +22,11 @@ int find_point(const Chain& chain, const Scene& scene, const std::string& name) 
   return find_point(chain, named == scene.frames.end() ? name : named->second);
 }
 
+double seconds_shown(const AnnotationEntry& entry) {
+  constexpr double kAfterPause = 0.1, kStay = 2;  // kStay: of those that do not hold it
+  return entry.hold > 0 ? entry.hold + kAfterPause : kStay;
+}
+
 std::vector<std::string> point_names(const Chain& chain) {
   std::vector<std::string> names;
   for (const Frame& frame : chain.frames) names.push_back(frame.name);

@@ -18,6 +18,9 @@ int find_point(const Chain& chain, const PushEntry& push);
 // All names that the first one knows.
 std::vector<std::string> point_names(const Chain& chain);
 
+// How long such words stand, s of the film: a little longer than it stands still for them.
+double seconds_shown(const AnnotationEntry& entry);
+
 // `panels`: the scenes of the page's panels, and their chains. Throws Error (bad input) at points that do not exist.
 void check_annotations(const Scene& page, const std::vector<const Scene*>& panels,
                        const std::vector<const Chain*>& chains);

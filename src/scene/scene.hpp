@@ -154,6 +154,7 @@ struct Scene {
   std::string file;                     // where it was read; not a key
   std::string name;                     // the file's name without its ending; not a key
   std::vector<std::string> notices;     // what was changed of it when it was made ready; not a key
+  std::vector<std::string> not_beside;  // names in it whose files come with the program, as none lie beside it, in words; among the notices; not a key
   std::vector<std::string> doubts;      // what speaks against it, found at the same time: warnings; not a key
   std::vector<std::string> set;         // key=value of the command line; not a key
   Parameters set_parameters;            // those that the command line gave a single run, told behind its title; not a key

@@ -7,6 +7,7 @@
 
 #include "core/format.hpp"
 #include "sim/between_samples.hpp"
+#include "sim/rank_loss.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/system/forms.hpp"
 #include "sim/unstable_rest.hpp"
@@ -153,6 +154,18 @@ class StepsAgain {
   Apart worst_;
 };
 
+// Looks lie a part of a step apart. What turns round at three of them in a row has a period of about two, or less.
+std::optional<Doubt> doubt_events(const Simulation& simulation, const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by) {
+  if (trajectory.events.hasty.empty()) return {};
+  const EventHits::Hasty& first = trajectory.events.hasty.front();
+  const double mean = trajectory.end_time / double(std::max(trajectory.steps, 1L));
+  const double shorter = round_down(kAim * (simulation.step > 0 ? simulation.step : std::min(mean, simulation.duration / kLeastWatchedSteps)));
+  return Doubt{"events", double(trajectory.events.hasty.size()),
+               "the event '" + simulation.events->list[std::size_t(first.event)].name + "' comes and goes faster than a run is looked at, first seen at t = " +
+                   format_significant(first.t, 4) + " s: some of it may be missed",
+               (simulation.step > 0 && !chosen_by ? "" : "--set method=rk4 ") + std::string("--set step=") + format_shortest(shorter)};
+}
+
 // A curve is followed from step to step, and not to be begun in the midst of a run.
 bool follows_a_curve(const Simulation& simulation) {
   const auto& list = simulation.constraints.list;
@@ -185,6 +198,8 @@ std::span<const Name> doubt_names() {
   static constexpr Name names[] = {{"energy", "the method makes or loses some"},
                                    {"constraint", "they are missed"},
                                    {"step", "it is too long for the motion"},
+                                   {"rank", "constraints depend on each other at an instant"},
+                                   {"events", "they come and go faster than a run is looked at"},
                                    {"samples", "more happens between the frames than they show"},
                                    {"rest", "nothing but rounding moves the start"}};
   return names;
@@ -199,12 +214,19 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
   };
   if (simulation.motion) return doubts;  // no method erred: what a table does not tell truly, its remarks say
   add(doubt_of_rest(simulation));
+  const std::optional<Doubt> rank = doubt_of_rank(simulation, trajectory);
+  add(rank);
   add(doubt_of_energy(simulation, trajectory, audit, chosen_by));
   if (trajectory.rows > 0) add(doubt_constraints(simulation, trajectory, chosen_by));
   // Steps end at corners of the state; taken again across one they would be others. What `auto` took has been judged.
   const bool has_corners = simulation.torque && simulation.torque->corners() != nullptr;
   if (simulation.step > 0 && !follows_a_curve(simulation) && !(has_corners && chosen_by)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));
+  add(doubt_events(simulation, trajectory, chosen_by));
   add(doubt_between(simulation, trajectory));
+  // No method finds what the equations leave open: what goes wrong there is not mended by another.
+  if (rank)
+    for (Doubt& doubt : doubts)
+      if (doubt.kind != "rest" && doubt.kind != "events") doubt.remedy = rank->remedy;
   return doubts;
 }
 

@@ -76,6 +76,7 @@ Slopes slopes_of(ChainSystem& system, const Simulation& simulation, const State&
 
 // What differences leave where there is nothing: it would make slow rates of none.
 LinearMotion without_noise(LinearMotion motion) {
+  if (motion.n() == 0) return motion;  // constraints leave nothing free
   const double rate = std::max(std::sqrt(motion.K.cwiseAbs().maxCoeff()), motion.D.cwiseAbs().maxCoeff());
   const auto clean = [](double least) { return [least](double x) { return std::abs(x) < least ? 0.0 : x; }; };
   motion.K = motion.K.unaryExpr(clean(kNoise * rate * rate)).eval();

@@ -416,11 +416,11 @@ class Run {
     // What makes steps small is most often the joint that moves fastest.
     const ConstVec qd = integrator_->v();
     const auto slower = [](double x, double y) { return std::abs(x) < std::abs(y); };
-    const std::string fastest = "; the fastest joint is '" + name(int(std::max_element(qd.begin(), qd.end(), slower) - qd.begin())) + "'";
-    if (result == StepResult::not_converged)
-      set_trouble(RunStatus::not_converged, "the implicit equations of a step found no solution" + fastest, begin);
-    else
-      set_trouble(RunStatus::step_too_small, "no step was small enough for the tolerance" + fastest, begin);
+    const std::string fastest = "; the fastest joint is '" + name(int(std::max_element(qd.begin(), qd.end(), slower) - qd.begin())) + "'" +
+                                (constrained_ ? "; or the constraints are singular near this pose, as of a chain stretched out along them" : "");
+    const bool is_implicit = result == StepResult::not_converged;
+    set_trouble(is_implicit ? RunStatus::not_converged : RunStatus::step_too_small,
+                (is_implicit ? "the implicit equations of a step found no solution" : "no step was small enough for the tolerance") + fastest, begin);
     return false;
   }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/json.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -184,6 +186,78 @@ TEST(StartAtACorner, HasTheTorqueOfWhatFollows) {
   EXPECT_NEAR(first_torque("1.12"), 0.12, 1e-15);
   EXPECT_NEAR(first_torque("-1.5"), -0.5, 1e-15);
   EXPECT_NEAR(first_torque("0.5"), 0, 1e-12);
+}
+
+// A name for which no file lies beside the scene is one of the program's own models: that is no silence.
+TEST(Doubts, ModelsThatLieNowhereBesideAreTold) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: rr.urdf\nduration: 0.1\nmethod: rk4\nvideo: {width: 320, height: 180}\n");
+  const std::string said = "there is no file rr.urdf beside " + scene + ": the program's own is taken";
+  for (const Words& command : std::vector<Words>{{"render", scene, "-o", folder.file("a.png")}, {"simulate", scene, "-o", folder.file("a.csv")}, {"check", scene}})
+    EXPECT_EQ(count_of(said, run_program(command).err), 1u) << command[0];
+  const std::string suite = folder.write("ci.yaml", "scene: s.yaml\nat: [0]\n");
+  EXPECT_THAT(run_program({"verify", suite, "--missing", "write"}).err, HasSubstr(said));
+  const std::string models = folder.write("models.yaml", "model: rr.urdf\nposes: {home: [0, 0]}\n");
+  EXPECT_THAT(run_program({"verify", models, "--missing", "write"}).err, HasSubstr("there is no file rr.urdf beside " + models));
+  folder.write("rr.urdf", read_whole_file(kRoot + "/models/rr.urdf"));
+  EXPECT_EQ(run_program({"simulate", scene, "-o", folder.file("b.csv"), "--quiet"}).err, "") << "negative control";
+  EXPECT_THAT(run_program({"render", "assets/scenes/rr_free.yaml", "--at", "0", "-o", folder.file("c.png")}).err, Not(HasSubstr("there is no file")));
+}
+
+// Tables that torques follow are asked for their units as those of a motion are.
+TEST(Doubts, DegreesOfAFollowedTableAreTold) {
+  const TemporaryFolder folder;
+  std::string rows = "t,q1,q2\n";
+  for (int k = 0; k <= 20; ++k) rows += std::to_string(0.05 * k) + "," + std::to_string(30 * std::sin(0.05 * k)) + ",0\n";
+  folder.write("deg.csv", rows);
+  for (const char* torque : {"{inverse_of: deg.csv, outside: hold}", "{pd: {kp: 10, kd: 1, trajectory: deg.csv, outside: hold}}"}) {
+    const std::string scene = folder.write("a.yaml", short_scene("torque: " + std::string(torque) + "\n"));
+    EXPECT_THAT(run_program({"simulate", scene, "-o", folder.file("a.csv"), "--force", "--quiet"}).err,
+                HasSubstr("goes to 25.24, which is in radians, 4.02 turns: for degrees its header is 'q1 [deg]'"))
+        << torque;
+  }
+  rows.replace(rows.find("q1"), 2, "q1 [rad]");
+  folder.write("deg.csv", rows);
+  const std::string meant = folder.write("a.yaml", short_scene("torque: {inverse_of: deg.csv, outside: hold}\n"));
+  EXPECT_THAT(run_program({"simulate", meant, "-o", folder.file("a.csv"), "--force", "--quiet"}).err, Not(HasSubstr("which is in radians"))) << "negative control";
+}
+
+// What speaks against one run of a sweep stands in its row.
+TEST(Doubts, OfOneRunOfASweepStandInItsRow) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", short_scene(""));
+  ASSERT_EQ(run_program({"sweep", scene, "--over", "start.q.1=0,90", "-o", folder.file("t.csv")}).status, 0);
+  const std::string table = read_whole_file(folder.file("t.csv"));
+  EXPECT_THAT(table, HasSubstr("doubtful: start.q: 90 of joint1 is in radians"));
+  EXPECT_EQ(count_of("doubtful", table), 1u);
+}
+
+// A chain that its constraints hold altogether ended the program.
+TEST(Doubts, AreNoneOfAChainWithoutFreedom) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("z.yaml", "model: {links: [1], masses: [1]}\nconstraints: [{joint: {name: joint1, value: 0}}]\nduration: 0.2\nvideo: {width: 320, height: 180}\n");
+  const ProgramResult run = run_program({"simulate", scene, "-o", folder.file("z.csv"), "--columns", "t,lambda", "--quiet"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(read_whole_file(folder.file("z.csv")), HasSubstr("\n0,-4.90")) << "m g L / 2";
+  for (const Words& command : std::vector<Words>{{"render", scene, "-o", folder.file("z.mp4")}, {"snapshot", scene, "-o", folder.file("z.png")}, {"sheet", scene, "-o", folder.file("s.png")}, {"stability", scene, "--methods", "rk4"}})
+    EXPECT_EQ(run_program(with(command, {"--quiet"})).status, 0) << command[0];
+}
+
+// Where links of a loop come to lie on one line, no method knows the way on, and each said another one without a word.
+TEST(Doubts, OfAChangePointAreToldByEveryMethod) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("cp.yaml", "model: {links: [0.3, 0.6, 0.4], masses: [1, 1, 1]}\ngravity: [0, 0, 0]\nstart: {q: {joint1: 90deg}, qd: {joint1: 3}}\n"
+                                                    "constraints: [{point: {frame: gripper, at: [0.7, 0]}}]\nduration: 2\nvideo: {width: 320, height: 180}\n");
+  for (const char* method : {"method=auto", "method=rk4", "method=dop853", "method=radau5", "method=semi_implicit_euler"}) {
+    const std::string err = run_program({"simulate", scene, "--set", method, "-o", folder.file("t.csv"), "--force", "--quiet"}).err;
+    EXPECT_THAT(err, HasSubstr("WARNING: cp: at t = 0.55")) << method;
+    EXPECT_THAT(err, HasSubstr("depend on each other")) << method;
+    EXPECT_THAT(err, HasSubstr("take --set duration=0.54")) << method;
+    const std::string before = run_program({"simulate", scene, "--set", method, "--set", "duration=0.54", "-o", folder.file("t.csv"), "--force", "--quiet"}).err;
+    EXPECT_EQ(before, "") << method << ": the remedy as it stands";
+  }
+  EXPECT_EQ(run_program({"simulate", scene, "--set", "acknowledge=[rank, energy, samples, step]", "-o", folder.file("t.csv"), "--force", "--quiet"}).err, "");
 }
 
 }  // namespace

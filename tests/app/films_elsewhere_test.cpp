@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/json.hpp"
+#include "support/own_model.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -19,14 +20,6 @@ using testing::HasSubstr;
 using testing::Not;
 
 const std::string kKeys = "start: {q: [1, 0]}\nduration: 0.1\nmethod: rk4\nvideo: {width: 160, height: 90}\n";
-
-std::string own_model() { return read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf"); }
-
-std::string heavier(const std::string& model) {
-  const std::string mass = "<mass value=\"";
-  std::string text = model;
-  return text.replace(text.find(mass), mass.size(), mass + "1");
-}
 
 ProgramResult run_in(const std::string& folder, Words words) {
   RunOptions options;

@@ -11,6 +11,7 @@
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "model/read_chain.hpp"
+#include "support/own_model.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -25,7 +26,7 @@ using testing::Not;
 // What a film shows is asked of its scene as it is now.
 TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
   const TemporaryFolder folder;
-  const std::string urdf = folder.write("rr.urdf", read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf"));
+  const std::string urdf = folder.write("rr.urdf", own_model());
   const std::string scene = folder.write("s.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.2\nmethod: rk4\nvideo: {width: 160, height: 90}\n");
   const std::string film = folder.file("s.mp4"), still = folder.file("s.png"), drawing = folder.file("s.svg"), snapshot = folder.file("t.png");
   ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", film, "-o", still, "-o", drawing, "--at", "0.1"}).status, 0);
@@ -43,10 +44,8 @@ TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
       EXPECT_EQ(asked(file, {"--set", change}).status, 1) << file << " " << change;
   }
   EXPECT_THAT(asked(film, {"--set", "gravity.2=-1.62"}).out, HasSubstr("gravity.2 -9.81 -> -1.62"));
-  const std::string before = read_whole_file(urdf), mass = "<mass value=\"";
-  std::string heavier = before;
-  heavier.replace(heavier.find(mass), mass.size(), mass + "1");
-  folder.write("rr.urdf", heavier);
+  const std::string before = read_whole_file(urdf);
+  folder.write("rr.urdf", heavier(before));
   const ProgramResult stale = asked(film);
   EXPECT_EQ(stale.status, 1);
   EXPECT_THAT(stale.out, HasSubstr("link link1: mass "));
@@ -104,7 +103,7 @@ TEST(FilmOfToday, FindsWhatPicturesWithoutAuditsShow) {
 TEST(FilmOfToday, AsksWhereNamedPosesAndEventsAreNow) {
   const TemporaryFolder folder;
   for (const char* name : {"docs", "events"}) fs::create_directory(folder.file(name));
-  const std::string urdf = folder.write("rr.urdf", read_whole_file(std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf"));
+  const std::string urdf = folder.write("rr.urdf", own_model());
   const std::string robot = read_chain(urdf).name, joint = read_chain(urdf).coordinate_names.front();
   const auto write_poses = [&](const char* angle) {
     folder.write("rr.srdf", "<robot name=\"" + robot + "\"><group_state name=\"ready\" group=\"a\"><joint name=\"" + joint + "\" value=\"" + angle + "\"/></group_state></robot>");

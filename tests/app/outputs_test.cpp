@@ -573,7 +573,12 @@ TEST(Outputs, CaptionsStandForAsLongAsOneReadsThem) {
 TEST(Outputs, CaptionsFollowTheFilm) {
   EXPECT_EQ(captions_with({"duration=4", "events=[{when: t - 0.5, name: a}, {when: t - 0.7, name: b}]",
                            "annotate=[{at: 1.5s, text: held, point: gripper, hold: 3s}]"}),
-            "1\n00:00:00,500 --> 00:00:00,700\na\n\n2\n00:00:00,700 --> 00:00:01,500\na\nb\n\n3\n00:00:01,500 --> 00:00:04,500\nheld\n\n");
+            "1\n00:00:00,500 --> 00:00:00,700\na\n\n2\n00:00:00,700 --> 00:00:01,500\na\nb\n\n3\n00:00:01,500 --> 00:00:04,600\nheld\n\n");
+  // Words that hold nothing stand for two seconds of the film, whatever comes meanwhile, as in the picture.
+  EXPECT_EQ(captions_with({"duration=4", "events=[{when: t - 1, name: low}]",
+                           "annotate=[{at: 0.3s, text: one, point: [0.5, 0.5], hold: 0s}, {at: 1s, text: two, point: gripper, hold: 1s}]"}),
+            "1\n00:00:00,300 --> 00:00:01,000\none\n\n2\n00:00:01,000 --> 00:00:02,100\none\nlow\ntwo\n\n"
+            "3\n00:00:02,100 --> 00:00:02,300\none\nlow\n\n4\n00:00:02,300 --> 00:00:03,000\nlow\n\n");
 }
 
 // As versions of Cairo write one text: brackets and backslashes behind one, in octal, on a line that goes on, or as pairs.

@@ -92,8 +92,12 @@ TEST(EffectiveMassTest, GrowsWithTheInverseSquareOfTheDistanceToASingularPose) {
 
 TEST(EffectiveMassTest, IsSingularBelowTheStatedFraction) {
   EXPECT_TRUE(rr_effective_mass(rr_chain(), 1.0).Lambda);
-  EXPECT_FALSE(rr_effective_mass(rr_chain(), 1e-3).Lambda);
-  const EffectiveMass near = rr_effective_mass(rr_chain(), 1e-3);
+  // The fraction is about the square of the angle in rad: at 1.7e-4 rad Lambda is known to some seven digits, and not infinite.
+  const std::optional<Eigen::MatrixXd> far = rr_effective_mass(rr_chain(), 0.01).Lambda;
+  ASSERT_TRUE(far);
+  EXPECT_NEAR(far->norm() / rr_effective_mass(rr_chain(), 0.02).Lambda->norm(), 4, 1e-3);
+  EXPECT_FALSE(rr_effective_mass(rr_chain(), 1e-4).Lambda);
+  const EffectiveMass near = rr_effective_mass(rr_chain(), 1e-4);
   ASSERT_EQ(near.singular_directions.size(), 1u);
   EXPECT_GT(near.singular_directions[0](0), 0.99999);
 }

@@ -58,6 +58,20 @@ TEST(InverseKinematics, OfRrIsTheTriangleOfTheLawOfCosines) {
   EXPECT_NEAR((*down)[0], std::atan2(0.7, 0.9) - bend / 2, 1e-14);
 }
 
+// Three unit links that bend by b twice reach to |1 + 2 cos b|: of two such bends within 1 m the smaller one.
+TEST(InverseKinematics, OfRrrBendsAlikeAsLittleAsNeedBe) {
+  const Chain chain = read_chain("models/rrr.urdf");
+  for (const Elbow elbow : {Elbow::up, Elbow::down})
+    for (const double r : {0.01, 0.3, 0.5303, 0.6452, 0.999, 1.0006, 1.5, 2.121, 2.99, 3.0}) {
+      const auto q = PointSolver(chain, elbow).pose_at({r * std::cos(0.4), r * std::sin(0.4), 0});
+      ASSERT_TRUE(q) << r;
+      const double bend = (elbow == Elbow::up ? -1 : 1) * std::acos((r - 1) / 2);
+      // Where it stretches out, a rounding of r is its root of the bend.
+      EXPECT_NEAR((*q)[1], bend, r > 2.98 ? 1e-7 : 1e-12) << r;
+      EXPECT_EQ((*q)[1], (*q)[2]) << r;
+    }
+}
+
 // Negative controls.
 TEST(InverseKinematics, FindsNothingWhereNothingIs) {
   for (const char* name : {"rr", "rrr"}) {

@@ -126,18 +126,18 @@ TEST(Fall, TimeStandsInTheTitle) {
   scene.events = {{"q1 - 1", EventKind::fall, "", Crossing::either, {}}};
   Trajectory run;
   run.end_time = 5;
-  EXPECT_EQ(title_of(scene, run), "Does not fall within 5 s, a pity");
+  EXPECT_EQ(title_of(scene, nullptr, run), "Does not fall within 5 s, a pity");
   scene.title = "A human, who falls in {fall}";
-  EXPECT_EQ(title_of(scene, run), "A human, who does not fall within 5 s");
+  EXPECT_EQ(title_of(scene, nullptr, run), "A human, who does not fall within 5 s");
   scene.title = "Time: {fall}";
-  EXPECT_EQ(title_of(scene, run), "Time: more than 5 s");
+  EXPECT_EQ(title_of(scene, nullptr, run), "Time: more than 5 s");
   scene.title = "Falls in {fall}, a pity";
   run.ending_event = 0;
   run.end_time = 1.2345;
-  EXPECT_EQ(title_of(scene, run), "Falls in 1.23 s, a pity");
+  EXPECT_EQ(title_of(scene, nullptr, run), "Falls in 1.23 s, a pity");
   scene.events.clear();
   run.ending_event = -1;
-  EXPECT_EQ(title_of(scene, run), scene.title);
+  EXPECT_EQ(title_of(scene, nullptr, run), scene.title);
 }
 
 TEST(Titles, TellTheirParametersAndWhatStaysAsItIs) {
@@ -145,10 +145,10 @@ TEST(Titles, TellTheirParametersAndWhatStaysAsItIs) {
   scene.title = "{F} N, {G}, $x_{F}$, {fall";
   scene.parameters = {{"F", 42.5}, {"k", 1}};
   scene.set_parameters = scene.parameters;
-  EXPECT_EQ(title_of(scene, {}), "42.5 N, {G}, $x_{F}$, {fall, k = 1");
+  EXPECT_EQ(title_of(scene, nullptr, {}), "42.5 N, {G}, $x_{F}$, {fall, k = 1");
   EXPECT_THAT(title_notices(scene), testing::ElementsAre(HasSubstr("{G} stays as it is: `parameters:` has no such name")));
   scene.title = "costs $5, F={F}";
-  EXPECT_EQ(title_of(scene, {}), "costs $5, F=42.5, k = 1") << "one $ is no formula";
+  EXPECT_EQ(title_of(scene, nullptr, {}), "costs $5, F=42.5, k = 1") << "one $ is no formula";
   scene.title = "{fall}";
   EXPECT_THAT(title_notices(scene), testing::ElementsAre(HasSubstr("no event of kind fall")));
   scene.title = "{F}";

@@ -7,8 +7,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/link_chain.hpp"
+#include "model/read_chain.hpp"
 #include "sim/runs.hpp"
+#include "sim/system/constrained_chain.hpp"
 #include "support/chains.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace chainreel {
 namespace {
@@ -135,6 +139,54 @@ TEST(Doubts, FindAStartThatOnlyRoundingMoves) {
   ASSERT_FALSE(found.empty());
   EXPECT_THAT(found.front().words, HasSubstr("only rounding can move it, which grows e-fold every 0.17 s"));
   EXPECT_THAT(found.front().remedy, HasSubstr("--set start.q."));
+}
+
+// A loop of 0.3, 0.6, 0.4 and 0.7 m: 0.3 + 0.7 = 0.6 + 0.4, so that all lie on one line once a turn, where its two rows are one. The crank turns at about
+// 3 rad/s, so that it is there a little after a turn of 1.6 rad.
+Simulation loop(const std::string& method, double step, double ground, double duration) {
+  Simulation run;
+  ModelOptions weightless;
+  weightless.gravity = Eigen::Vector3d(0, 0, 0);
+  const TemporaryFolder folder;
+  LinkChain links;
+  links.links = {0.3, 0.6, 0.4};
+  EXPECT_TRUE(complete(links).empty());
+  run.chain = read_chain(folder.write("loop.urdf", urdf_of(links, "loop")), weightless);
+  run.torque = make_torque_law(run.chain, std::vector<TorqueEntry>(3), {});
+  run.method = &find_method(method);
+  run.step = step;
+  if (step == 0) run.options.tolerance = 1e-12;
+  run.duration = duration;
+  run.constraints.list = {PointConstraint{"gripper", {ground, 0, 0}}};
+  run.q0 = {1.5707963267948966, -1.43, -1.45};
+  run.qd0 = {3, -3.4, 2.65};
+  ConstrainedChain chain(run.chain, run.constraints);
+  Workspace ws(run.chain);
+  chain.project(ws, run.q0, run.qd0);
+  return run;
+}
+
+TEST(Doubts, FindAPoseWhereTheWayOnIsOpen) {
+  for (const auto& [method, step] : {std::pair("semi_implicit_euler", 1e-3), std::pair("rk4", 1e-3), std::pair("dop853", 0.0)}) {
+    const Simulation run = loop(method, step, 0.7, 2);
+    const std::vector<Doubt> found = doubts(run);
+    const auto rank = std::find_if(found.begin(), found.end(), [](const Doubt& one) { return one.kind == "rank"; });
+    ASSERT_NE(rank, found.end()) << method;
+    EXPECT_THAT(rank->words, HasSubstr("at t = 0.55")) << method;
+    EXPECT_THAT(rank->remedy, HasSubstr("--set duration=0.5")) << method;
+    for (const Doubt& doubt : found) EXPECT_EQ(doubt.remedy, rank->remedy) << doubt.kind << ": no other method helps";
+    // Negative controls: as told; a ground that is longer by a millionth; by a twentieth.
+    EXPECT_THAT(kinds(loop(method, step, 0.7, 0.54)), ::testing::Not(::testing::Contains("rank"))) << method;
+    EXPECT_THAT(kinds(loop(method, step, 0.735, 2)), ::testing::Not(::testing::Contains("rank"))) << method;
+  }
+  EXPECT_THAT(kinds(loop("dop853", 0, 0.7 + 1e-5, 2)), ::testing::Not(::testing::Contains("rank"))) << "it turns round 5 mrad before";
+}
+
+// A chain that its constraints hold altogether is at rest, and nothing speaks against that.
+TEST(Doubts, AreNoneOfAChainWithoutFreedom) {
+  Simulation run = run_of("rr", {}, 1, "rk4", 0.01);
+  run.constraints.list = {JointConstraint{run.chain.coordinate_names[0], 0}, JointConstraint{run.chain.coordinate_names[1], 0}};
+  EXPECT_THAT(kinds(run), ::testing::IsEmpty());
 }
 
 }  // namespace

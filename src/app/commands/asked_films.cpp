@@ -25,6 +25,7 @@ class AuditsOfFolders {
   std::string telling_of(const std::string& path) {
     const fs::path file(path);
     std::error_code code;
+    if (lower_case_ending(path) == ".json") return is_table(path) ? path + ".json" : "";  // by itself it would be an audit
     if (fs::is_regular_file(audit_path_of(path), code)) return path;
     const auto [folder, is_new] = folders_.try_emplace(file.has_parent_path() ? file.parent_path().string() : ".");
     if (is_new) read(folder->first, folder->second);
@@ -57,8 +58,9 @@ OwnAudit own_audit(const std::string& path, AuditsOfFolders& audits) {
     });
     if (own == check.files.end()) return {};
     OwnAudit audit{audit_beside(telling), own->state != AuditedState::as_written || !check.contradicted.empty(), fs::path(check.audit).parent_path().string()};
+    const bool is_record = audit.json.is_object() && audit.json.contains(kMadeBy);
     for (const AuditCheck::File& file : check.files)
-      if (file.state == AuditedState::missing && find_output_format(file.path) == nullptr) audit.texts_gone.push_back(file.path);
+      if (!is_record && file.state == AuditedState::missing && find_output_format(file.path) == nullptr) audit.texts_gone.push_back(file.path);
     return audit;
   } catch (const Error&) {
     return {};
@@ -87,7 +89,7 @@ void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
   for (const Json& one : audited_files_of(json)) {
     const std::string file = (folder / fs::path(word_of(one, "file")).filename()).string();
     std::error_code code;
-    if (find_output_format(file) != nullptr && !fs::exists(fs::symlink_status(file, code)))
+    if ((find_output_format(file) != nullptr || json.contains(kMadeBy)) && !fs::exists(fs::symlink_status(file, code)))
       list.push_back({file, {json, false, folder.string()}, true, "", nullptr, one.value("at", Json())});
   }
 }
@@ -126,7 +128,7 @@ class ScenesRemembered {
 }  // namespace
 
 bool is_table(const std::string& path) {
-  return find_output_format(path, Shows::table) != nullptr;
+  return find_output_format(path, Shows::table) != nullptr || (lower_case_ending(path) == ".json" && is_own_sidecar(path + ".json"));
 }
 
 AskedFilms asked_films(const std::vector<std::string>& paths) {
@@ -152,7 +154,7 @@ AskedFilms asked_films(const std::vector<std::string>& paths) {
       const std::string file = entry->path().string();
       if (entry->is_regular_file(code) && lower_case_ending(file) == ".json") add_gone(file, all.list);
       const OutputFormat* format = find_output_format(file);
-      if (!entry->is_regular_file(code) || format == nullptr || (format->read_tags == nullptr && format->shows != Shows::table)) continue;
+      if (!entry->is_regular_file(code) || !(is_table(file) || (format != nullptr && format->read_tags != nullptr))) continue;
       const std::optional<ClipMemory> memory = memory_in(file);
       AskedFilm film = is_table(file) || (memory && tells_what_it_shows(*memory)) ? asked(file, memory) : AskedFilm{file};
       if (film.audit.json.is_object() || !film.scene.empty())

@@ -303,7 +303,7 @@ void run_chart(const ChartOptions& options) {
   const std::vector<std::string> lit = highlighted(options, chosen);
   PreparedScene prepared = load_motion(options.scene, overrides_of(options.common), options.panel, options.common.quiet);
   require_computed_run(prepared.scene, "chart");
-  const FigureFiles files(options.figure, "out/" + prepared.scene.name + "_chart.png", options.common.force);
+  FigureFiles files(options.figure, "out/" + prepared.scene.name + "_chart.png", options.common.force);
   const std::string doubt = options.judges_energy() ? "" : doubt_of_end(prepared.simulation);
   if (!doubt.empty()) tell_warnings({prepared.scene.name + ": " + doubt});
   Measured measured = measure_all(prepared, chosen, options);

@@ -34,6 +34,7 @@
 #include "core/format.hpp"
 #include "core/input_file.hpp"
 #include "draw/page/house_style.hpp"
+#include "encode/png.hpp"
 #include "model/model_source.hpp"
 #include "model/read_chain.hpp"
 
@@ -130,7 +131,7 @@ struct Today {
 
 Today difference_of(const std::string& path, const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
   Today found{.path = path, .scene = prepared.scene.file};
-  found.has_other_versions = film.audit.value("versions", Json()) != today.audit.value("versions", Json());
+  found.has_other_versions = has_other_versions(film.audit.value("versions", Json::object()), today.audit.value("versions", Json::object()));
   ClipMemory old = film, now = today;
   old.audit = without_beside(film.audit);
   now.audit = without_beside(today.audit);
@@ -181,7 +182,7 @@ PreparedFilm film_behind(const AskedFilm& asked, const std::string& scene, const
 // A table of `render`: it remembers nothing, and is made again.
 Today table_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   if (!asked.audit.json.is_object())
-    throw Error(ExitCode::bad_input, "is a table that no audit and no record beside it tells of, as `render`, `simulate`, `inverse` and `sweep` write them: whether it would be the same today cannot be told", {asked.path});
+    throw Error(ExitCode::bad_input, "is a table that no audit and no record beside it tells of, as commands write them: whether it would be the same today cannot be told", {asked.path});
   const std::string& path = asked.path;
   const OwnAudit& audit = asked.audit;
   const PreparedFilm film = film_behind(asked, scene, common);
@@ -256,6 +257,7 @@ Today recorded_of_today(const AskedFilm& asked, const std::string& scene, const 
   const Json now = inputs_today(made.words, made.files, asked.path);
   if (asked.audit.is_changed && !asked.is_gone) found.words.push_back("the file is not as it was written: `chainreel check " + asked.path + "`");
   for (std::string& one : changed_inputs(asked.audit.json[kMadeBy].value(kInputs, Json()), now)) found.words.push_back(std::move(one));
+  for (std::string& one : changed_poses({{"named_poses", made.named_poses}}, first)) found.words.push_back(std::move(one));
   found.again.command = words_behind_program(made.words, made.files, asked.path);
   // The table of a map is made without one.
   if (const auto map = std::find(found.again.command.begin(), found.again.command.end(), "--map"); map != found.again.command.end() && map + 1 != found.again.command.end())
@@ -263,6 +265,16 @@ Today recorded_of_today(const AskedFilm& asked, const std::string& scene, const 
   found.again.command.insert(found.again.command.end(), {"-o", typed_path(made.output), "--force"});
   return found;
 }
+
+// A picture tells of its own pixels: no audit lies beside a still.
+bool has_other_pixels(const std::string& path) {
+  if (lower_case_ending(path) != ".png") return false;
+  const auto text = read_png_text(path);
+  const auto written = text.find(kPixels);
+  return written != text.end() && written->second != pixels_checksum(read_png(path));
+}
+
+constexpr const char* kOtherPixels = "the file is not as it was written: its pixels are others";
 
 // A figure depends on what its files say, and on poses that have names beside its model.
 Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
@@ -284,6 +296,7 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   }
   if (!model.empty())
     for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
+  if (has_other_pixels(path)) found.words.emplace_back(kOtherPixels);
   found.again.command = words_behind_program(words, figure.value("files", std::vector<std::size_t>()), path);
   found.again.command.insert(found.again.command.end(), {"-o", typed_path(path), "--force"});
   return found;
@@ -304,6 +317,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   const auto count = [](const Today& one) { return one.words.size() + one.facts.size(); };
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
+  if (!audit.is_changed && has_other_pixels(path)) nearest.words.insert(nearest.words.begin(), kOtherPixels);
   for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
   nearest.again = remaking_of(asked, film, remembered.audit, common);
   return nearest;

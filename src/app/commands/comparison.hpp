@@ -54,6 +54,9 @@ Json report_of(const ImageDifference& difference, const Image& before, const Ima
 void write_difference(const CompareOptions& options, const Image& before, const Image& after,
                       const std::string& path);
 
+// Whether both name a library, or this program, and not the same version of it.
+bool has_other_versions(const Json& before, const Json& after);
+
 // "1 pixel is", "3 pixels are".
 std::string counted(long count, const char* one, const char* more);
 

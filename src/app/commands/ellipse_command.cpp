@@ -13,6 +13,7 @@
 #include "app/commands/figure.hpp"
 #include "app/commands/paper.hpp"
 #include "app/commands/pose_page.hpp"
+#include "app/commands/table_record.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/film/target.hpp"
 #include "core/data_folder.hpp"
@@ -275,6 +276,9 @@ void run_ellipse(const EllipseOptions& options) {
                 {"poses", ellipse_json(tip, poses, options.form(motion))}};
   };
   const std::string csv = options.joint_space ? "" : ellipse_csv(tip, poses, options.form(motion));
+  TableRecords records(*options.command, options.common.force);
+  records.open(outputs, outputs);
+  records.remember_named_poses(memory.figure);
   std::optional<Picture> picture;
   int numbers_left_out = 0;
   for (const std::string& output : outputs) {
@@ -287,6 +291,7 @@ void run_ellipse(const EllipseOptions& options) {
                                     : draw_ellipse_figure(tip, poses.q, figure, fonts, &numbers_left_out);
     write_picture(*picture, figure.width, figure.height, fonts, output, options.common.force, memory);
   }
+  records.write();
   if (numbers_left_out > 0 && !options.common.quiet)
     std::fprintf(stderr, "note: %s no room here: all are in --json and .csv, %s\n",
                  numbers_left_out == 1 ? "the number of one semi-axis has" : ("the numbers of " + std::to_string(numbers_left_out) + " semi-axes have").c_str(),

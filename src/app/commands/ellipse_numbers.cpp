@@ -16,6 +16,7 @@
 #include "dynamics/equation_of_motion.hpp"
 #include "dynamics/inverse_kinematics.hpp"
 #include "dynamics/kinematics.hpp"
+#include "model/model_description.hpp"
 #include "scene/quantity.hpp"
 #include "scene/run/pose_doubts.hpp"
 #include "scene/run/sweep.hpp"
@@ -86,7 +87,7 @@ std::string ellipse_csv(const TipMass& tip, const GatheredPoses& poses, const El
   const TaskBasis basis = task_basis(chain, Task::linear);
   const std::size_t rows = basis.names.size();
   std::string text = poses.t.empty() ? "" : "t,";
-  for (const std::string& name : position_names(chain)) text += "q." + name + ",";
+  for (const DescribedCoordinate& one : coordinates_of(chain)) text += (one.unit.empty() ? "q." + one.name : with_unit("q." + one.name, one.unit)) + ",";
   text += "x [m],y [m],z [m]";
   for (const auto& [symbol, unit] : {std::pair("Lambda_inv_", "1/kg"), std::pair("Lambda_", "kg")})
     for (std::size_t i = 0; i < rows; ++i)

@@ -306,7 +306,7 @@ void run_energy(const EnergyOptions& options) {
   const Scene& scene = all.first().scene;
   const double until = options.until.empty() ? scene.duration : parse_positive_seconds(options.until, "--until", "1000s");
   for (PreparedScene& one : all.scenes) one.simulation.duration = until;
-  const FigureFiles files(options.figure, "out/" + scene.name + "_energy.png", options.common.force);
+  FigureFiles files(options.figure, "out/" + scene.name + "_energy.png", options.common.force);
   require_all_possible(all);
   const std::vector<MethodRun> runs = run_all(all, until, options.common.quiet);
 

@@ -10,6 +10,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/table_record.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
@@ -31,6 +32,7 @@ struct FallOptions {
   bool edges = false;
   int threads = 0;
   CommonOptions common;
+  const Command* command = nullptr;
 };
 
 bool has_failed(const FallRow& row) {
@@ -239,6 +241,8 @@ void run_fall(const FallOptions& options) {
     table_format_of(output);  // throws for others
     const OutputFile allowed(output, options.common.force);  // throws where it is not, before anything is computed
   }
+  TableRecords records(*options.command, options.common.force);
+  records.open(options.outputs, options.outputs);
   const int cores = usable_cores();
   const int threads = std::min(options.threads > 0 ? options.threads : cores, int(sweep.values.size()));
   FallTable table;
@@ -256,6 +260,7 @@ void run_fall(const FallOptions& options) {
   Json report = report_of(options, table);
   const FigureNumbers numbers{csv_of(options, table), [&] { return report; }};
   for (const std::string& output : options.outputs) write_numbers(output, numbers, options.common.force);
+  records.write();
   report.update(files_json(options.outputs));
   if (options.common.json)
     print_json(report);
@@ -283,6 +288,7 @@ void add_fall_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer("Example: chainreel fall humanoid_fall --sweep parameters.k=0:1200:7 --edges");
+  options->command = command;
   command->callback([options] { run_fall(*options); });
 }
 

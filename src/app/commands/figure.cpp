@@ -87,6 +87,15 @@ ChartLook chart_look(const FigureOptions& options, const Scene& scene, const Fon
   return look;
 }
 
+namespace {
+
+// What is measured is another number at each time.
+bool measures(const std::vector<std::string>& words) {
+  return !words.empty() && words.front() == "chart";
+}
+
+}  // namespace
+
 bool is_table_path(const std::string& path) {
   return find_table_format(path).has_value();
 }
@@ -108,7 +117,7 @@ void write_numbers(const std::string& path, const FigureNumbers& numbers, bool o
 }
 
 FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual, bool overwrite)
-    : options_(options), paths_(options.outputs), overwrite_(overwrite) {
+    : options_(options), paths_(options.outputs), overwrite_(overwrite), records_(*options.command, overwrite) {
   if (paths_.empty()) paths_.push_back(usual);
   for (const std::string& path : paths_) check_figure_path(path);
   refuse_twice(paths_);
@@ -120,6 +129,7 @@ FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual,
     const OutputFile beside_it(table, overwrite);
     beside_.push_back(table);
   }
+  if (!measures(options.command->words())) records_.open(paths_, paths_);
 }
 
 ClipMemory memory_of_chart(const FigureOptions& options) {
@@ -140,7 +150,7 @@ bool FigureFiles::is_named(const std::string& path) const {
   });
 }
 
-std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw, const FigureNumbers& numbers, const Fonts& fonts) const {
+std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw, const FigureNumbers& numbers, const Fonts& fonts) {
   std::vector<std::string> written;
   std::optional<Picture> picture;
   std::optional<ClipMemory> memory;
@@ -157,15 +167,11 @@ std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw
     write_text_file(table, numbers.csv, overwrite_);
     written.push_back(table);
   }
+  records_.write();
   return written;
 }
 
 namespace {
-
-// What is measured is another number at each time.
-bool measures(const std::vector<std::string>& words) {
-  return !words.empty() && words.front() == "chart";
-}
 
 // "" where it names none.
 std::string first_file(const Command& command) {

@@ -8,6 +8,7 @@
 
 #include "app/cli/command.hpp"
 #include "app/commands/paper.hpp"
+#include "app/commands/table_record.hpp"
 #include "app/film/clip_memory.hpp"
 #include "core/frame_rate.hpp"
 #include "core/json.hpp"
@@ -59,7 +60,7 @@ class FigureFiles {
 
   // Pictures as their endings say, and beside each the numbers as CSV, out/x.png and out/x.csv, where no other -o names that
   // file; tables alone. `draw` is called where a picture is asked for. Returns what was written.
-  std::vector<std::string> write(const std::function<Picture()>& draw, const FigureNumbers& numbers, const Fonts& fonts) const;
+  std::vector<std::string> write(const std::function<Picture()>& draw, const FigureNumbers& numbers, const Fonts& fonts);
 
  private:
   bool is_named(const std::string& path) const;
@@ -67,6 +68,7 @@ class FigureFiles {
   const FigureOptions& options_;
   std::vector<std::string> paths_, beside_;  // beside_: tables that lie by pictures
   bool overwrite_;
+  TableRecords records_;  // of tables that -o names
 };
 
 // What a figure remembers that shows no scene: the words that made it, what its files say (kInputs) where each can be read by itself, but of charts, which measure, and the model and its poses where there are.

@@ -107,7 +107,7 @@ void run_inverse(const InverseOptions& options) {
   std::vector<std::string> outputs = options.outputs;
   if (outputs.empty()) outputs.push_back("out/" + std::filesystem::path(table).stem().string() + "_tau.csv");
   TableFiles files(outputs, options.common);
-  TableRecords records(*options.command, options.common);
+  TableRecords records(*options.command, options.common.force);
   records.open(outputs, outputs);
   const InverseAlong inverse = inverse_along(recorded.chain, recorded.constraints, *recorded.motion);
   tell_doubts(options, *recorded.motion, inverse);

@@ -151,7 +151,7 @@ std::string title_of_cell(const Moment& moment, const Scene& scene, const std::s
 
 // Of one scene at several instants: what its run tells of itself, `{fall}`, stands there, too.
 std::string title_of_run(const PreparedFilm& film, const std::string& file) {
-  const std::string title = film.panels.size() == 1 ? title_of(film.panels.front().scene, Runs(film)[0]) : title_of_page(film.scene);
+  const std::string title = film.panels.size() == 1 ? title_of(film.panels.front().scene, &film.panels.front().simulation, Runs(film)[0]) : title_of_page(film.scene);
   return title.empty() ? stem_of(file) : title;
 }
 

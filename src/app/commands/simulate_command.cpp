@@ -149,7 +149,7 @@ void run_simulate(const SimulateOptions& options) {
     require_peaks(film.panels[i].simulation, wanted.peaks, "--peaks");
   }
   Json reports = Json::array();
-  TableRecords records(*options.command, options.common);
+  TableRecords records(*options.command, options.common.force);
   for (const std::size_t i : chosen) {
     std::vector<std::string> paths;
     for (const std::string& output : outputs) paths.push_back(panel_table_path(output, i, alone));

@@ -11,6 +11,7 @@
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/commands/table_record.hpp"
 #include "app/commands/map_axes.hpp"
 #include "app/film/progress.hpp"
 #include "app/film/prepared.hpp"
@@ -193,7 +194,7 @@ void draw_map(const StabilityOptions& options) {
   const Sweep x = parse_sweep(options.x, "--x"), y = parse_sweep(options.y, "--y");
   require_map_axis(x, "--x");
   require_map_axis(y, "--y");
-  const FigureFiles files(options.figure, usual_map(options), options.common.force);
+  FigureFiles files(options.figure, usual_map(options), options.common.force);
   const std::vector<std::string> overrides = overrides_of(options.common);
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   StabilityCells cells;
@@ -301,6 +302,8 @@ void compare_methods(const StabilityOptions& options) {
   std::vector<std::vector<std::string>> table{
       {"method", "coarse", "middle", "fine", "limit of the step, s"}};
   Json found{{"scene", options.scene}, {"methods", Json::array()}, {"left_out", Json::array()}};
+  TableRecords records(*options.figure.command, options.common.force);
+  records.open(options.figure.outputs, options.figure.outputs);
   const std::vector<const Method*> chosen = parse_methods(options.methods);
   std::optional<WorkTicker> ticker(std::in_place, prepared.scene.name + ": simulating", options.common.quiet);
   double runs_done = 0;
@@ -336,6 +339,7 @@ void compare_methods(const StabilityOptions& options) {
   const std::vector<std::string>& outputs = options.figure.outputs;
   const FigureNumbers numbers{csv_of_methods(options.scene, found), [&] { return found; }};
   for (const std::string& output : outputs) write_numbers(output, numbers, options.common.force);
+  records.write();
   if (options.common.json) {
     found.update(files_json(outputs));
     return print_json(found);

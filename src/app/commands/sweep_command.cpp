@@ -387,7 +387,7 @@ void run_sweep(SweepOptions options) {
     tables.front() = with_suffix(tables.front(), suffix);
     SweepTableJob job{options.scene, overrides_of(options.common), grid, runs, threads, tables, options.common.force, options.common.quiet, peaks, options.last};
     if (!maps.empty()) job.looks_at_names = [&](const std::vector<std::string>& names) { require_map_column(names, grid, options.last, options.map); };
-    TableRecords records(*options.figure.command, options.common);
+    TableRecords records(*options.figure.command, options.common.force);
     if (options.shard.empty()) records.open(tables, tables);  // a share is no table yet
     const SweepOutcome outcome = write_sweep_table(job);
     for (const std::string& path : tables) tell(path, outcome);

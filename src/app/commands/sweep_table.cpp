@@ -29,6 +29,7 @@
 #include "sim/audit.hpp"
 #include "sim/doubts.hpp"
 #include "sim/plots.hpp"
+#include "sim/rank_loss.hpp"
 #include "sim/unstable_rest.hpp"
 #include "sim/workload.hpp"
 #include "table/data_table.hpp"
@@ -137,8 +138,9 @@ std::vector<std::string> cells_of(const Sweep& axis) {
 // What a thread computes rows with.
 class RowMaker {
  public:
-  RowMaker(const SweepTableJob& job, std::string states, std::size_t peaks, std::size_t events)
-      : job_(job), file_(job.scene), states_(std::move(states)), peaks_(peaks), events_(events) {
+  // `known`: what speaks against the scene of the first run, which is told for all.
+  RowMaker(const SweepTableJob& job, std::string states, std::size_t peaks, std::size_t events, std::vector<std::string> known)
+      : job_(job), file_(job.scene), states_(std::move(states)), peaks_(peaks), events_(events), known_(std::move(known)) {
     for (const Sweep& axis : job.grid.axes()) cells_.push_back(cells_of(axis));
   }
 
@@ -177,6 +179,7 @@ class RowMaker {
     if (!is_complete(run.status)) return "";
     std::optional<Doubt> doubt = doubt_of_energy(simulation, run, audit_of(simulation, run), {});
     if (!doubt) doubt = doubt_of_rest(simulation);
+    if (!doubt) doubt = doubt_of_rank(simulation, run);
     return doubt ? kDoubtful + doubt->words : "";
   }
 
@@ -194,6 +197,8 @@ class RowMaker {
     const bool as_expected =
         scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
     std::string trouble = run.trouble.empty() ? doubt_of(simulation, run) : run.trouble;
+    const auto own = std::ranges::find_if(scene.doubts, [&](const std::string& doubt) { return std::ranges::find(known_, doubt) == known_.end(); });
+    if (trouble.empty() && own != scene.doubts.end()) trouble = kDoubtful + *own;
     if (const std::string limits = limits_of(scene, run); !limits.empty() && is_complete(run.status)) trouble += (trouble.empty() ? "" : "; ") + limits;
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
@@ -224,6 +229,7 @@ class RowMaker {
   LastChain last_;
   std::string states_;
   std::size_t peaks_, events_;  // how many cells they have
+  std::vector<std::string> known_;
 };
 
 // Where values are or hold names of files, as in {csv: tau.csv}, these, as the scene finds them: here, else beside it.
@@ -351,7 +357,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
     std::mutex lock;
     const std::size_t pieces = (behind - std::min(begin, behind) + kRunsOfPiece - 1) / kRunsOfPiece;
     for_each_index_with_tools(pieces, job.threads, [&]() -> RunIndex {
-      const auto maker = std::make_shared<RowMaker>(job, states, peaks.size(), first.events.size());
+      const auto maker = std::make_shared<RowMaker>(job, states, peaks.size(), first.events.size(), first.doubts);
       return [&, maker](std::size_t piece) {
         std::string rows;
         const std::size_t from = begin + piece * kRunsOfPiece, until = std::min(behind, from + kRunsOfPiece);

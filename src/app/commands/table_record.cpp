@@ -26,11 +26,15 @@ std::string record_of(const std::string& table) {
 
 void TableRecords::open(const std::vector<std::string>& paths, const std::vector<std::string>& outputs) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (paths[i] == "-" || table_format_of(paths[i]) == TableFormat::json) continue;
-    require_own_sidecar(record_of(paths[i]), common_.force);
+    if (paths[i] == "-" || !find_table_format(paths[i])) continue;
+    require_own_sidecar(record_of(paths[i]), overwrite_);
     tables_.push_back({paths[i], outputs[i]});
   }
   if (!tables_.empty() && inputs_.is_null()) inputs_ = command_inputs(command_.words(), command_.files());
+}
+
+void TableRecords::remember_named_poses(const Json& figure) {
+  named_poses_ = figure.value("named_poses", Json());
 }
 
 void TableRecords::write() {
@@ -41,8 +45,9 @@ void TableRecords::write() {
       if (is_own_sidecar(record_of(table.path))) fs::remove(record_of(table.path), code);
       continue;
     }
-    const Json record{{kMadeBy, {{"arguments", words_from(command_, folder)}, {"files", command_.files()}, {kInputs, inputs_}, {"output", fs::path(table.output).filename().string()}}},
+    Json record{{kMadeBy, {{"arguments", words_from(command_, folder)}, {"files", command_.files()}, {kInputs, inputs_}, {"output", fs::path(table.output).filename().string()}}},
                       {kAuditedFiles, Json::array({audited_file(table.path)})}};
+    if (!named_poses_.is_null()) record[kMadeBy]["named_poses"] = named_poses_;
     write_text_file(record_of(table.path), record.dump(2) + "\n", true);
   }
   tables_.clear();
@@ -50,7 +55,7 @@ void TableRecords::write() {
 
 RecordedCommand recorded_command(const Json& record, const std::string& folder, const std::string& path) try {
   const Json made = figure_from(record.at(kMadeBy), {folder, true, {}, {}});
-  RecordedCommand command{made.at("arguments"), made.at("files"), (fs::path(path).parent_path() / fs::path(made.at("output").get<std::string>()).filename()).string()};
+  RecordedCommand command{made.at("arguments"), made.at("files"), (fs::path(path).parent_path() / fs::path(made.at("output").get<std::string>()).filename()).string(), made.value("named_poses", Json())};
   for (const std::size_t i : command.files) command.words.at(i);  // throws
   return command;
 } catch (const std::exception&) {

@@ -416,7 +416,9 @@ void verify(const VerifyOptions& options) {
   SuiteResult result{options.suite, baselines.folder(), {}, unused_baselines(suite, baselines), {}, {}};
   result.pictures = Verification(suite, options, baselines, cameras, acceptance).run(chosen);
   throw_if_interrupted();
-  if (!options.refit) result.notices = lost_cameras(suite, baselines, kept);
+  result.notices = suite.notes;
+  if (!options.refit)
+    for (std::string& notice : lost_cameras(suite, baselines, kept)) result.notices.push_back(std::move(notice));
   if (const std::size_t left = suite.pictures.size() - chosen.size(); left > 0)
     result.notices.push_back("--filter leaves " + std::to_string(left) + " of " + std::to_string(suite.pictures.size()) + " pictures out: of them nothing is said");
   tell_of_former_names(result);

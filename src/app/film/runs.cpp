@@ -182,7 +182,7 @@ Composition Runs::composition(const Scene& page, int frames, const Fonts& fonts)
 }
 
 std::string in_panel(const Scene& scene, const Trajectory& trajectory, std::size_t i, const std::string& message) {
-  return "panel " + std::to_string(i + 1) + " (" + title_of(scene, trajectory) + "): " + message;
+  return "panel " + std::to_string(i + 1) + " (" + title_of(scene, nullptr, trajectory) + "): " + message;
 }
 
 // What its author can do about a run that failed.

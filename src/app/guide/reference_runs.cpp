@@ -123,7 +123,7 @@ std::string outputs_page() {
          "model, tables, meshes and the program of today would make the same: exit code 1 and what has changed where they would not. The audit beside it\n"
          "tells which scene that is and what `--set` changed. Pictures of `snapshot` have none and say both themselves: the scene of that name is\n"
          "taken that lies nearest to them, and of figures and sheets the files of their commands, of which they remember what they said; elsewhere `--scene rr.yaml` names\n"
-         "it. Beside a table of `simulate`, `inverse` and `sweep`, x.csv, lies the record x.csv.json, which says the same. Charts, which measure, are not asked about, which\n"
+         "it. Beside a table that a command writes by itself, x.csv or x.json, lies the record x.csv.json or x.json.json, which says the same. Charts, which measure, are not asked about, which\n"
          "is said. It simulates and draws nothing, so that a folder of films is held against its scenes in seconds.\n\n"
          "What a command does not overwrite without `--force`: files outside of a folder named `out`.\n\n" +
          code_block("sh", "chainreel render rr_free -o out/rr.webm -o out/rr.gif\n");

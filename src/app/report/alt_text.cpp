@@ -11,6 +11,7 @@
 #include "dynamics/constraints/constraint_rows.hpp"
 #include "draw/layers/speed_box.hpp"
 #include "picture/formula_words.hpp"
+#include "scene/annotation.hpp"
 #include "scene/run/fall.hpp"
 #include "scene/run/title.hpp"
 #include "scene/text/scene_paths.hpp"
@@ -26,6 +27,7 @@ struct Moment {
   double t = 0;  // of the run, or of the film, s
   std::string text;
   double stay = kCaptionSeconds;  // s of the film
+  bool is_word = false;           // of `annotate:`, which the picture shows for as long
 };
 
 std::string vector_text(const std::vector<double>& values) {
@@ -171,7 +173,7 @@ void add_words(std::vector<Moment>& moments, const FilmReport& report) {
     const std::size_t panel = std::min(std::size_t(entry.panel), report.panels.size()) - 1;
     if (!at || *at > report.panels[panel].trajectory.end_time) continue;
     const RunReport& run = report.panels[panel];
-    moments.push_back({*at, in_plain_words(filled_words(entry.text, run.prepared.scene, run.trajectory)), std::max(entry.hold, kCaptionSeconds)});
+    moments.push_back({*at, in_plain_words(filled_words(entry.text, run.prepared.scene, run.trajectory)), seconds_shown(entry), true});
   }
 }
 
@@ -325,18 +327,31 @@ std::string captions(const FilmReport& report) {
     while (next < moments.size() && moments[next].t < moments[i].t + kSameInstant) ++next;
     const double first = moments[i].t, begin = moments[next - 1].t;  // of all of them: the first a little late, none before its time
     for (std::size_t k = i; k < next; ++k) moments[k].t = first;
-    // What came just before stands on until it can have been read, and so does what is held, nothing before its time.
-    std::string words;
+    // What came just before stands on until it can have been read, and words of `annotate:` for as long as in the picture, nothing before its time.
+    const auto until = [&](const Moment& one) { return one.t + one.stay; };
+    std::vector<Moment> standing;
     double end = begin;
     for (std::size_t k = 0; k < next; ++k) {
-      const bool is_held = moments[k].stay > kCaptionSeconds && moments[k].t + moments[k].stay > begin + kSameInstant;
-      if (k < i && !is_held && !(moments[k].t + kLeastCaption > begin)) continue;
-      words += moments[k].text + "\n";
-      end = std::max(end, moments[k].t + moments[k].stay);
+      if (k < i && !(moments[k].is_word ? until(moments[k]) > begin + kSameInstant : moments[k].t + kLeastCaption > begin)) continue;
+      standing.push_back(moments[k]);
+      end = std::max(end, until(moments[k]));
     }
     end = std::min(end, film_end);
     if (next < moments.size()) end = std::min(end, moments[next].t);
-    text += std::to_string(++number) + "\n" + srt_time(begin) + " --> " + srt_time(end) + "\n" + words + "\n";
+    // A caption more where words go before the others do.
+    std::vector<double> ends{end};
+    for (const Moment& one : standing)
+      if (one.is_word && until(one) > begin + kSameInstant && until(one) < end - kSameInstant) ends.push_back(until(one));
+    std::sort(ends.begin(), ends.end());
+    double from = begin;
+    for (const double to : ends) {
+      if (!(to > from)) continue;
+      text += std::to_string(++number) + "\n" + srt_time(from) + " --> " + srt_time(to) + "\n";
+      for (const Moment& one : standing)
+        if (!one.is_word || from == begin || until(one) > from + kSameInstant) text += one.text + "\n";
+      text += "\n";
+      from = to;
+    }
   }
   return text;
 }

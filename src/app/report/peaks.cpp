@@ -93,10 +93,10 @@ namespace {
 
 // Between samples the work is no number, and the constraints are as the method's dense output has them.
 bool is_seen_between(const Trajectory& run, MotionColumn column) {
-  return run.between && column != MotionColumn::work && column != MotionColumn::constraint_error;
+  return run.between && column != MotionColumn::work && column != MotionColumn::energy_error && column != MotionColumn::constraint_error;
 }
 
-// The method's own error, at the ends of its steps: what its dense output adds between them is none of the run's.
+// Its error at the ends of steps, too: what lies between them is that of its dense output besides, as rows of tables have it.
 void look_at_steps(const Trajectory& run, Farthest& peak) {
   if (run.energy_at_steps) peak.look(run.energy_at_steps->signed_error, run.energy_at_steps->time);
 }
@@ -134,16 +134,12 @@ std::vector<double> look_at(const Simulation& simulation, const Trajectory& run,
   std::vector<double> closer;
   std::size_t first = 0;
   for (const MotionColumn column : columns) {
-    if (column == MotionColumn::energy_error) {
-      peaks.resize(std::max(peaks.size(), first + 1), Farthest(simulation.duration));
-      look_at_steps(run, peaks[first++]);
-      continue;
-    }
     const Trajectory& seen = is_seen_between(run, column) ? *run.between : run;
     for (const DataArray& array : table_of(simulation, seen, column).arrays) {
       const std::size_t count = array.columns.size();
       peaks.resize(std::max(peaks.size(), first + count), Farthest(simulation.duration));
       for (std::size_t i = 0; i < count; ++i) {
+        if (column == MotionColumn::energy_error) look_at_steps(run, peaks[first + i]);
         const std::vector<Peak> tops = tops_of({seen, array.values, i, count});
         for (const Peak& top : tops) {
           closer.push_back(top.t);
@@ -169,8 +165,7 @@ PeaksOfRun simulate_for_peaks(const Simulation& simulation, const PeaksAsked& as
   PeaksOfRun found{asks_for_energy ? simulate_audited(simulation, times, stop, between) : simulate(simulation, times, stop, {}, between), {}};
   std::vector<Farthest> peaks;
   look_at(simulation, found.run, columns, peaks);
-  const bool asks_for_more = columns.size() > std::size_t(asks_for_energy);
-  if (asks_for_more && is_complete(found.run.status))
+  if (is_complete(found.run.status))
     look_closer(simulation, found.run, kLooks, [&](const Trajectory& seen) { return look_at(simulation, seen, columns, peaks); }, stop);
   const std::vector<std::string> names = names_in(simulation, columns);
   for (std::size_t i = 0; i < peaks.size(); ++i)

@@ -101,7 +101,7 @@ const Json& RunReport::constraints() const {
 }
 
 std::string title_of(const RunReport& run) {
-  return title_of(run.prepared.scene, run.trajectory);
+  return title_of(run.prepared.scene, &run.prepared.simulation, run.trajectory);
 }
 
 Json to_json(const RunReport& report) {

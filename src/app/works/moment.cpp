@@ -51,7 +51,7 @@ struct Moments::State {
     Moment moment;
     moment.at = runs.times()[std::size_t(frame)];
     moment.picture = pictures.still(frame);
-    moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, runs[0]) : title_of_page(film.scene);
+    moment.title = runs.size() == 1 ? title_of(film.panels.front().scene, &film.panels.front().simulation, runs[0]) : title_of_page(film.scene);
     moment.memory = memory;
     moment.memory.audit["at"] = moment.at;
     moment.warnings = warnings;
@@ -81,7 +81,7 @@ struct Moments::State {
   Json numbers(int frame) const {
     Json panels = Json::array();
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      Json panel{{"title", title_of(film.panels[i].scene, runs[i])}, {"status", to_string(runs[i].status)}};
+      Json panel{{"title", title_of(film.panels[i].scene, &film.panels[i].simulation, runs[i])}, {"status", to_string(runs[i].status)}};
       if (runs[i].size() > 0) panel.update(sample_report(film.panels[i].simulation, runs[i], std::min(frame, runs[i].size() - 1)));
       panels.push_back(std::move(panel));
     }

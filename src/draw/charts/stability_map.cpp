@@ -197,7 +197,11 @@ void draw_legend(Picture& picture, const PlotFrame& map, const Axis& errors, con
   });
   add(key.dotted, [&](const Rect& swatch) {
     picture.add(Cells{swatch, 1, 1, {map_color(0.5)}});
-    draw_doubtful_dots(picture, {.nx = 1, .ny = 1, .cells = {{.doubtful = true}}}, swatch);
+    StabilityMap one;
+    one.nx = one.ny = 1;
+    one.cells.resize(1);
+    one.cells.front().doubtful = true;
+    draw_doubtful_dots(picture, one, swatch);
   });
   draw_color_bar(picture, {left, bottom, left + kBarWidth, map.box.y1}, errors, look);
   const TextStyle title{Face::label, style.text(size::kAxis), look.theme->ink, Align::left};

@@ -181,7 +181,7 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
   text.legend = ellipse_legend(options.reading, chain.planar      ? EllipseBody::flat
                                                 : options.section ? EllipseBody::section
                                                                   : EllipseBody::solid);
-  if (names_masses) text.legend = text.legend.substr(0, text.legend.find(": ")) + ", eigenvalues of \u039B below";
+  if (names_masses) text.legend = text.legend.substr(0, text.legend.find(": ")) + ", eigenvalues of \u039B under each pose";
   if (options.cell > 0) text.legend += "; cut where longer than its cell";
   text.legend_size = size::kTick;
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,

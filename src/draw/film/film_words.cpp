@@ -74,6 +74,13 @@ Obstacle obstacle_of(const Rect& box) {
   return {{box.x0 + radius, y}, {box.x1 - radius, y}, radius + kBetweenWords};
 }
 
+constexpr double kAirInCell = 0.008;  // units of H: from its frame
+
+// Where words may stand: a cell of a comparison has a frame, which is to strike none.
+Rect area_of_words(const Stage& stage, const Panel& panel) {
+  return stage.has_cells() ? widened(panel.area(), -kAirInCell) : panel.area();
+}
+
 }  // namespace
 
 FilmWords::FilmWords(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
@@ -81,7 +88,7 @@ FilmWords::FilmWords(const Stage& stage, const Layers& layers, const FilmSheet& 
   if (std::none_of(layers.begin(), layers.end(), [](const auto& layer) { return layer->has_words(); })) return;
   const Gatherer gatherer(layers, view, panels);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    WordPlan plan(panels[i].area(), stage.page.video.fps.value());
+    WordPlan plan(area_of_words(stage, panels[i]), stage.page.video.fps.value());
     const std::vector<Obstacle> always = gatherer.once(i, view.shared_page(stage, sheet));
     for (int k = 0; k <= panels[i].last() && !panels[i].motion().is_outlined(); ++k) {
       std::vector<Obstacle> obstacles = always;
@@ -110,7 +117,7 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
     else
       obstacles.push_back(obstacle_of(words[i].box));
   }
-  WordPlan plan(panels[panel].area(), kLooksPerSecond);
+  WordPlan plan(area_of_words(stage, panels[panel]), kLooksPerSecond);
   plan.add(missing, obstacles);
   const std::vector<StandingWord> found = plan.standing().front();
   auto next = found.begin();

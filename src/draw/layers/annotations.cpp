@@ -16,10 +16,6 @@
 namespace chainreel {
 namespace {
 
-// s of the film that words stay behind their instant, before which nothing is true: those that hold it while it stands still, and
-// hardly longer.
-constexpr double kAfterPause = 0.1;
-constexpr double kStay = 2;    // of those that do not hold it
 constexpr double kSame = 1e-9;  // s
 // Of the width of their panel: longer words are broken into lines, the fewer the better.
 constexpr double kWidths[] = {0.62, 0.42, 0.28};
@@ -131,8 +127,7 @@ class Annotations : public Layer {
 
   bool is_shown(const Note& note, double t) const {
     const double begin = stage_->clock.film_time(note.at), now = stage_->clock.film_time(t);
-    const double stay = note.entry->hold > 0 ? note.entry->hold + kAfterPause : kStay;
-    return now >= begin - kSame && now <= begin + stay + kSame;
+    return now >= begin - kSame && now <= begin + seconds_shown(*note.entry) + kSame;
   }
 
   // Half way to what it carries farthest off, a joint or a frame; the base where it stands.

@@ -18,6 +18,7 @@ namespace {
 // it has no bound, and to show it would make all ellipses needles: it is written where it leaves its scene.
 constexpr double kOrdinaryRatio = 32;
 constexpr int kBeltSamples = 64;
+constexpr double kLongestAxis = 1e4;  // units of H: what is longer looks the same on any page, and its curve is lost to rounding
 constexpr double kMostBounded = 0.8;  // of the ellipses of a film have long axes that are bounded
 
 // A semi-axis on the page: the whole vector, or the direction of an infinite one (projected, not unit).
@@ -32,7 +33,7 @@ std::vector<PageAxis> page_axes(const std::vector<MassAxis>& axes, const Camera&
   for (const MassAxis& axis : axes) {
     const Point d{camera.right.dot(axis.direction), camera.up.dot(axis.direction)};
     const std::optional<double> length = semi_axis(axis, style.reading);
-    if (length) projected.push_back({(*length * style.per_unit) * d, length});
+    if (length) projected.push_back({std::min(*length * style.per_unit, kLongestAxis) * d, length});
     if (!length && norm(d) > 1e-6) projected.push_back({d, length});
   }
   // What is heavy is slow.

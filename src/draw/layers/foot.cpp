@@ -3,6 +3,7 @@
 // none. Then words say that the foot is held.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/format.hpp"
@@ -38,6 +39,7 @@ struct FootRun {
   GroundAxes ground;
   std::vector<Eigen::Vector3d> ankles;  // joints on the world
   std::vector<Answer> answers;          // a sample
+  int held_from = std::numeric_limits<int>::max();  // the sample: a real foot turns from there on
 };
 
 FootRun::FootRun(const StagedRun& motion)
@@ -56,6 +58,7 @@ FootRun::FootRun(const StagedRun& motion)
     const double t = trajectory.t[std::size_t(k)];
     hold_as_then(system, *motion.simulation(), trajectory, t);
     const GroundLoad load = ground_load(system, ws, ground, foot.height, t, q, qd, qdd);
+    if (!(load.grf >= 0 && load.cop >= foot.heel && load.cop <= foot.toe)) held_from = std::min(held_from, k);
     answers.push_back({load.cop, load.force / weight, presses_near(load, foot)});
   }
   motion.simulation()->torque->leave_pieces();
@@ -132,7 +135,7 @@ class FootLayer : public Layer {
     const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(shot.k, 0, int(run.answers.size()) - 1))];
     const Camera& camera = panel.camera();
     const bool stands = answer.is_shown && answer.place >= run.foot.heel && answer.place <= run.foot.toe;
-    if (!stands && !is_transparent(*page_)) add_held(run, camera, shot.labels);
+    if (shot.k >= run.held_from && !is_transparent(*page_)) add_held(run, camera, shot.labels);
     if (!answer.is_shown) return;
     const Point force = (arrow_ / camera.scale) * camera.project_vector(answer.force, camera.focus);
     const ChainLook& look = panel.look();

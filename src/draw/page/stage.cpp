@@ -65,7 +65,7 @@ int StagedRun::curve_samples() const {
 }
 
 std::string StagedRun::title() const {
-  return title_of(run_.scene, run_.trajectory);
+  return title_of(run_.scene, run_.simulation, run_.trajectory);
 }
 
 bool StagedRun::is_wild() const {

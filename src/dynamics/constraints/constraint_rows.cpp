@@ -250,8 +250,28 @@ int reversed_row(Workspace& ws, const ConstraintSet& set) {
   });
 }
 
+namespace {
+
+constexpr double kSameRow = 1e-9;
+
+}  // namespace
+
+bool repeats_others(const Chain& chain, const ConstraintSet& set, const ConstrainedWorkspace& cws, std::size_t k) {
+  // How many freedoms these rows take.
+  const auto taken_by = [&](const auto& is_asked) {
+    Eigen::MatrixXd rows(0, chain.nv);
+    for (int i = 0; i < set.rows(); ++i) {
+      if (!is_asked(i)) continue;
+      rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+      rows.row(rows.rows() - 1) = Eigen::Map<const Eigen::RowVectorXd>(cws.Jc.data() + std::size_t(i) * std::size_t(chain.nv), chain.nv);
+    }
+    return rows.rows() == 0 ? Eigen::Index(0) : chain.nv - null_space(rows, kSameRow).cols();
+  };
+  const auto is_own = [&](int i) { return i >= set.first_row(k) && i < set.first_row(k + 1); };
+  return taken_by([](int) { return true; }) < taken_by(is_own) + taken_by([&](int i) { return !is_own(i); });
+}
+
 Eigen::MatrixXd free_directions(const Chain& chain, Workspace& ws, const ConstraintSet& set, ConstVec q) {
-  constexpr double kSameRow = 1e-9;
   ConstrainedWorkspace cws(chain, set);
   const std::vector<double> rest(std::size_t(chain.nv));
   compute_constraints(chain, ws, set, cws, q, rest);

@@ -23,6 +23,9 @@ namespace chainreel {
 // others, to 1e-9, take none away.
 Eigen::MatrixXd free_directions(const Chain& chain, Workspace& ws, const ConstraintSet& set, ConstVec q);
 
+// Whether some of constraint k's rows are sums of multiples of others', to 1e-9: how they share a force no equation says. After compute_constraints.
+bool repeats_others(const Chain& chain, const ConstraintSet& set, const ConstrainedWorkspace& cws, std::size_t k);
+
 // Writes cws.phi, cws.Jc, cws.Jcd_qd.
 void compute_constraints(const Chain& chain, Workspace& ws, const ConstraintSet& set,
                          ConstrainedWorkspace& cws, ConstVec q, ConstVec qd);

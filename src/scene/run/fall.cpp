@@ -194,7 +194,14 @@ bool stands(const FallRow& row) {
   return !row.tips && !row.takes_off && !row.fall_time && row.status == RunStatus::finished;
 }
 
-std::optional<double> foot_is_held_from(const Simulation& simulation, const Trajectory& run) {
+namespace {
+
+struct HeldFoot {
+  double from;     // s
+  bool takes_off;  // the ground would have to pull
+};
+
+std::optional<HeldFoot> held_foot_of(const Simulation& simulation, const Trajectory& run) {
   if (!simulation.events || !simulation.events->foot || !simulation.torque) return {};
   const Foot& foot = *simulation.events->foot;
   const Chain& chain = simulation.chain;
@@ -202,14 +209,16 @@ std::optional<double> foot_is_held_from(const Simulation& simulation, const Traj
   std::vector<double> qdd(std::size_t(chain.nv));
   Workspace ws(chain);
   simulation.torque->leave_pieces();
+  const GroundAxes axes = ground_axes(chain);
+  const auto load_at = [&](double t, ConstVec q, ConstVec qd) { return ground_load(system, ws, axes, foot.height, t, q, qd, qdd); };
   const auto bears = [&](double t, ConstVec q, ConstVec qd) {
-    const GroundLoad load = ground_load(system, ws, ground_axes(chain), foot.height, t, q, qd, qdd);
+    const GroundLoad load = load_at(t, q, qd);
     return load.grf >= 0 && load.cop >= foot.heel && load.cop <= foot.toe;
   };
   int k = 0;
   while (k < run.size() && bears(run.t[std::size_t(k)], run.q_at(k), run.qd_at(k))) ++k;
   if (k == run.size()) return {};
-  if (k == 0) return run.t.front();
+  if (k == 0) return HeldFoot{run.t.front(), load_at(run.t.front(), run.q_at(0), run.qd_at(0)).grf < 0};
   // Samples may be far apart: between them it is looked for in the motion through both.
   constexpr int kHalvings = 40;
   HermiteSpan span(chain.nq, chain.nv);
@@ -223,7 +232,20 @@ std::optional<double> foot_is_held_from(const Simulation& simulation, const Traj
     span.interpolate(system, middle, q, qd);
     (bears(middle, q, qd) ? last : first) = middle;
   }
-  return first;
+  span.interpolate(system, first, q, qd);
+  return HeldFoot{first, load_at(first, q, qd).grf < 0};
+}
+
+}  // namespace
+
+std::optional<double> foot_is_held_from(const Simulation& simulation, const Trajectory& run) {
+  const std::optional<HeldFoot> held = held_foot_of(simulation, run);
+  return held ? std::optional(held->from) : std::nullopt;
+}
+
+std::string tips_text(const Simulation& simulation, const Trajectory& run) {
+  const std::optional<HeldFoot> held = held_foot_of(simulation, run);
+  return !held ? "" : (held->takes_off ? "takes off at " : "tips at ") + format_significant(held->from, 2) + " s";
 }
 
 FallEnd what_became_of(const FallTable& table, const FallRow& row) {

@@ -89,6 +89,8 @@ std::string end_of(const FallTable& table, const FallRow& row);
 // From when on the ground would have to press beside the foot, or pull at it, by the motion through the samples of a run: a real foot turns
 // from there on, and this one is held. Nothing where there is no foot, or it bears all of the run.
 std::optional<double> foot_is_held_from(const Simulation& simulation, const Trajectory& run);
+// "tips at 0.66 s", of such a run, or "takes off ..", where the ground would have to pull there; "" of others.
+std::string tips_text(const Simulation& simulation, const Trajectory& run);
 inline constexpr const char* kFootIsHeld = "the ground would have to press beside the foot, or pull at it: a real one turns from there on, this one is held";
 
 // Never fell, and kept the pressure within the foot.

@@ -101,6 +101,9 @@ void look_at_contact_forces(Scene& scene, const Simulation& simulation, const Co
       problems.add("'" + name + "' bears nothing of a contact_force of " + numbers(contact.force) +
                        " at the start: press along what it holds, or another constraint",
                    scene.contact_force[i].place);
+    else if (repeats_others(simulation.chain, set, cws, contact.constraint))
+      problems.add("'" + name + "' repeats what other constraints hold, which bear part of its force: how much no equation says. Leave one of them out, or press with another",
+                   scene.contact_force[i].place);
     else if ((borne - contact.force).norm() > kBorne * contact.force.norm())
       scene.notices.push_back("of the contact_force of " + numbers(contact.force) + ", '" + name + "' bears " +
                               numbers(borne) + " at the start; the rest is left out");

@@ -6,6 +6,7 @@
 #include "dynamics/kinematics.hpp"
 #include "scene/run/prepare.hpp"
 #include "sim/drive/recorded_motion.hpp"
+#include "sim/drive/table_units.hpp"
 
 namespace chainreel {
 namespace {
@@ -64,11 +65,22 @@ void look_at_span(Scene& scene, const std::string& path, const std::vector<doubl
   say_once(scene.notices, span + "; " + end + " " + what + " held: write `outside: hold` beside the table if it is meant, or zero, or refuse");
 }
 
+// Of the table of a motion that is followed.
+void look_at_units(Scene& scene, const Chain& chain, const std::string& path) {
+  const Table table = read_table(path, {});
+  const TimeTable motion = time_table_of(table, {"q"}, chain.coordinate_names);
+  if (motion.t.size() < 2 || motion.groups[0].empty()) return;
+  for (const std::string& doubt : doubts_of_units(chain, table, motion, ColumnNames{}.time.name, false))
+    say_once(scene.doubts, doubt);
+}
+
 void look_at_controls(Scene& scene, const Chain& chain) {
   for (const NamedControl& one : controls_of(scene, chain)) {
     Control& control = *one.control;
     const auto look = [&](const std::string& path, const std::optional<Outside>& outside, const std::string& what, bool is_log = false) {
-      if (path.empty() || is_meant(outside)) return;
+      if (path.empty()) return;
+      if (!is_log) look_at_units(scene, chain, path);
+      if (is_meant(outside)) return;
       std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, is_log ? control.columns : ColumnNames{}).t;
       if (is_log) set_clock(scene, control, t);
       look_at_span(scene, path, t, outside, what, control.place);

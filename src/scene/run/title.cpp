@@ -43,15 +43,21 @@ std::optional<std::string> parameter_of(const Scene& scene, const std::string& n
   return {};
 }
 
+// "tips at 0.66 s, not down", of a foot that is held where a real one turns; "" of a run whose foot bears it all.
+std::string tips_not_down(const Simulation* simulation, const Trajectory& trajectory) {
+  const std::string tips = simulation == nullptr ? "" : tips_text(*simulation, trajectory);
+  return tips.empty() ? "" : tips + ", not down";
+}
+
 // The title; of a run that does not fall "falls in {fall}" says that, as nobody knows whether it would.
-std::string told_of_none(const Scene& scene, const Trajectory& trajectory) {
+std::string told_of_none(const Scene& scene, const Simulation* simulation, const Trajectory& trajectory) {
   if (!has_fall(scene) || fall_time_of(scene, trajectory)) return scene.title;
   std::string title = scene.title;
-  const std::string within = " not fall within " + format_significant(trajectory.end_time, 3) + " s";
+  const std::string tips = tips_not_down(simulation, trajectory), within = " within " + format_significant(trajectory.end_time, 3) + " s";
   constexpr std::array<std::pair<std::string_view, const char*>, 3> kSaid{{{"falls in {fall}", "does"}, {"Falls in {fall}", "Does"}, {"fall in {fall}", "do"}}};
   for (const auto& [words, verb] : kSaid)
     for (std::size_t at = title.find(words); at != title.npos; at = title.find(words, at + 1))
-      if (at == 0 || !std::isalpha(static_cast<unsigned char>(title[at - 1]))) title.replace(at, words.size(), verb + within);
+      if (at == 0 || !std::isalpha(static_cast<unsigned char>(title[at - 1]))) title.replace(at, words.size(), (tips.empty() ? verb + std::string(" not fall") : tips) + within);
   return title;
 }
 
@@ -64,9 +70,9 @@ std::string filled_words(const std::string& words, const Scene& scene, const Tra
   });
 }
 
-std::string title_of(const Scene& scene, const Trajectory& trajectory) {
+std::string title_of(const Scene& scene, const Simulation* simulation, const Trajectory& trajectory) {
   std::set<std::string> told;
-  const std::string own = told_of_none(scene, trajectory);
+  const std::string own = told_of_none(scene, simulation, trajectory);
   bool tells_fall = own != scene.title;
   std::string title = filled(own, [&](const std::string& name) -> std::optional<std::string> {
     if (name == kFall && has_fall(scene)) {
@@ -79,8 +85,10 @@ std::string title_of(const Scene& scene, const Trajectory& trajectory) {
   });
   // A name that was made for a panel tells what came of it, too.
   const bool is_made = !scene.title.empty() && !scene.places.contains("title");
-  if (is_made && !tells_fall && has_fall(scene))
-    title += fall_time_of(scene, trajectory) ? ": falls in " + fall_time_text(scene, trajectory) : ": does not fall";
+  if (is_made && !tells_fall && has_fall(scene)) {
+    const std::string tips = fall_time_of(scene, trajectory) ? "" : tips_not_down(simulation, trajectory);
+    title += ": " + (fall_time_of(scene, trajectory) ? "falls in " + fall_time_text(scene, trajectory) : tips.empty() ? "does not fall" : tips);
+  }
   for (const auto& [name, value] : scene.set_parameters)
     if (!told.contains(name)) title += (title.empty() ? "" : ", ") + name + " = " + value_text(value);
   return title;

@@ -10,8 +10,9 @@
 namespace chainreel {
 
 // The title, in it `{fall}` replaced by the time of the fall and `{F}` by the parameter of that name, but for formulas between dollar
-// signs; and behind it the parameters that the command line gave and the title does not tell.
-std::string title_of(const Scene& scene, const Trajectory& trajectory);
+// signs; and behind it the parameters that the command line gave and the title does not tell. Of a run that does not fall it says so, or that a real foot
+// would have tipped. `simulation`: may be null.
+std::string title_of(const Scene& scene, const Simulation* simulation, const Trajectory& trajectory);
 
 // Words that a film says elsewhere, likewise.
 std::string filled_words(const std::string& words, const Scene& scene, const Trajectory& trajectory);

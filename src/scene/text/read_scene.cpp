@@ -75,6 +75,8 @@ Scene read_document(const YamlDocument& document) {
   scene.start.written_qd = numbers_of_start(document, "qd");
   scene.places = document.places();
   scene.absolute_paths = absolute_paths_of(document);
+  scene.not_beside = notes_of_shipped(document);
+  scene.notices.insert(scene.notices.end(), scene.not_beside.begin(), scene.not_beside.end());
   return scene;
 }
 

@@ -9,6 +9,7 @@
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "scene/keys/fields.hpp"
 #include "scene/keys/keys.hpp"
 #include "scene/text/write_scene.hpp"
 #include "scene/yaml_document.hpp"
@@ -166,6 +167,20 @@ std::vector<std::string> absolute_paths_of(const YamlDocument& document) {
       paths.push_back(node.Scalar());
   });
   return paths;
+}
+
+std::vector<std::string> notes_of_shipped(const YamlDocument& document) {
+  std::vector<std::string> notes;
+  visit_paths(document.root, false, [&](const YAML::Node& node) {
+    const std::string& named = node.Scalar();
+    const std::string found = input_beside(document.file, named);
+    std::error_code ignored;
+    // Paths of the command line are those of the working folder, too.
+    if (found == beside(document.file, named) || fs::exists(named, ignored)) return;
+    const std::string note = not_there(named, "beside " + document.file, found);
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  });
+  return notes;
 }
 
 }  // namespace chainreel

@@ -33,4 +33,7 @@ std::string placeless_scene_text(const Scene& scene);
 // Absolute paths that stand in the file itself, not in values of the command line.
 std::vector<std::string> absolute_paths_of(const YamlDocument& document);
 
+// What is to be said of names for which no file lies beside the document, so that those of the program itself are taken.
+std::vector<std::string> notes_of_shipped(const YamlDocument& document);
+
 }  // namespace chainreel

@@ -129,6 +129,7 @@ class SuiteReader {
                                     : "' is no scene: name models under `model:`"),
                       place);
       } else if (require_file_of_suite(named, source.file, place, problems_)) {
+        if (is_model && source.file != beside(suite_.file, named)) suite_.notes.push_back(not_there(named, "beside " + suite_.file, source.file));
         sources_.push_back(source);
       }
     }
@@ -274,6 +275,8 @@ class SuiteReader {
   void make_instants(const Source& source) try {
     // What is wrong with the suite's own keys is told already, and not again by each of its scenes.
     const Scene scene = read_scene(source.file, problems_.empty() ? with_variant(suite_.overrides, *variant_) : std::vector<std::string>{});
+    for (const std::string& note : scene.not_beside)
+      if (std::find(suite_.notes.begin(), suite_.notes.end(), note) == suite_.notes.end()) suite_.notes.push_back(note);
     if (!root_.has("at")) add(source, "", source.place).telling = true;
     for (const auto& [asked, place] : instants_) {
       if (const std::string trouble = trouble_of_instant(asked, scene); !trouble.empty()) {

@@ -67,6 +67,7 @@ struct Suite {
   std::vector<Place> override_places;  // where it says so, a place each
   std::vector<SuiteVariant> variants;  // each source is shown once a variant; none: once
   OtherPhysics other_physics = OtherPhysics::fail;
+  std::vector<std::string> notes;  // models that come with the program, as none of their names lie beside the suite or its scenes
 };
 
 // Reads each model once. Throws Error with every problem: file, line, remedy.

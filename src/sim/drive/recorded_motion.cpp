@@ -55,30 +55,6 @@ void check_turns(const Chain& chain, const Table& table, const TimeTable& motion
   }
 }
 
-// Nobody's log has so few rows; and of an angle nobody means more than a turn without saying so, in a unit.
-void doubt_units(const Chain& chain, const Table& table, const TimeTable& motion, const ColumnNames& names, std::vector<std::string>& doubts) {
-  constexpr double kSlowestLog = 1;  // s a row
-  const std::string& clock = names.time.name;
-  const std::size_t time = std::size_t(table.find(clock));
-  const double step = (motion.t.back() - motion.t.front()) / double(motion.t.size() - 1);
-  if (table.units[time].empty() && step > kSlowestLog)
-    doubts.push_back("the rows of " + table.file + " are " + format_significant(step, 3) + " s apart: is '" + clock +
-                     "' in seconds? For milliseconds its header is '" + clock + " [ms]' (or us, ns), for seconds '" + clock +
-                     " [s]'; a scene may say so, too: `columns: {time: \"" + clock + " [ms]\"}`");
-  for (std::size_t i = 0; i < motion.groups[0].size(); ++i) {
-    const std::size_t column = motion.columns[0][i];
-    if (!table.units[column].empty() || !freedom_turns(chain, i)) continue;
-    double largest = 0;
-    for (const double q : motion.groups[0][i]) largest = std::max(largest, std::fabs(q));
-    if (!(largest > 2 * std::numbers::pi)) continue;
-    const std::string& name = table.names[column];
-    doubts.push_back("'" + name + "' of " + table.file + " goes to " + format_significant(largest, 4) + ", which is in radians, " +
-                     format_significant(largest / (2 * std::numbers::pi), 3) + " turns: for degrees its header is '" + name +
-                     " [deg]', for radians '" + name + " [rad]'; a scene may say so, too: `columns: {" + chain.coordinate_names[i] +
-                     ": \"" + name + " [deg]\"}`");
-  }
-}
-
 // Divided differences of numbers at instants: their rates, between them.
 struct Samples {
   std::vector<double> t, x;
@@ -317,7 +293,7 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
   has_accelerations_ = !motion.groups[2].empty();
   splines_ = make_table_reference(motion, file);
 
-  doubt_units(chain, *table_, motion, names, doubts_);
+  doubts_ = doubts_of_units(chain, *table_, motion, names.time.name, true);
   doubt_noise(*table_, motion, doubts_);
   const Derivatives derivatives(*table_, motion);
   derivatives.compare(0, 1, remarks_);

@@ -1,6 +1,11 @@
 #include "sim/drive/table_units.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "core/error.hpp"
+#include "core/format.hpp"
 
 namespace chainreel {
 
@@ -40,6 +45,31 @@ void check_table_units(const Chain& chain, const Table& table, const TimeTable& 
                       "', which " + (freedom_turns(chain, i) ? "turns: rad, rad/s, rad/s^2 and N m, or deg" : "slides: m, m/s, m/s^2 and N, or mm"),
                   {table.file});
     }
+}
+
+// Nobody's log has so few rows; and of an angle nobody means more than a turn without saying so, in a unit.
+std::vector<std::string> doubts_of_units(const Chain& chain, const Table& table, const TimeTable& motion, const std::string& clock, bool scene_names) {
+  std::vector<std::string> doubts;
+  constexpr double kSlowestLog = 1;  // s a row
+  const std::size_t time = std::size_t(table.find(clock));
+  const double step = (motion.t.back() - motion.t.front()) / double(motion.t.size() - 1);
+  if (table.units[time].empty() && step > kSlowestLog)
+    doubts.push_back("the rows of " + table.file + " are " + format_significant(step, 3) + " s apart: is '" + clock +
+                     "' in seconds? For milliseconds its header is '" + clock + " [ms]' (or us, ns), for seconds '" + clock +
+                     " [s]'" + (scene_names ? "; a scene may say so, too: `columns: {time: \"" + clock + " [ms]\"}`" : ""));
+  for (std::size_t i = 0; i < motion.groups[0].size(); ++i) {
+    const std::size_t column = motion.columns[0][i];
+    if (!table.units[column].empty() || !freedom_turns(chain, i)) continue;
+    double largest = 0;
+    for (const double q : motion.groups[0][i]) largest = std::max(largest, std::fabs(q));
+    if (!(largest > 2 * std::numbers::pi)) continue;
+    const std::string& name = table.names[column];
+    doubts.push_back("'" + name + "' of " + table.file + " goes to " + format_significant(largest, 4) + ", which is in radians, " +
+                     format_significant(largest / (2 * std::numbers::pi), 3) + " turns: for degrees its header is '" + name +
+                     " [deg]', for radians '" + name + " [rad]'" +
+                     (scene_names ? "; a scene may say so, too: `columns: {" + chain.coordinate_names[i] + ": \"" + name + " [deg]\"}`" : ""));
+  }
+  return doubts;
 }
 
 }  // namespace chainreel

@@ -16,4 +16,8 @@ bool freedom_turns(const Chain& chain, std::size_t freedom);
 // names the column. Of freedoms that are no joint's own number nothing is known.
 void check_table_units(const Chain& chain, const Table& table, const TimeTable& columns, const std::vector<std::string>& quantities);
 
+// What speaks against the units of a motion's table where it tells none: angles of more than a turn, rows far apart. `motion`: its coordinates, `clock` the
+// column of its instants; `scene_names`: whether a scene can say what columns are.
+std::vector<std::string> doubts_of_units(const Chain& chain, const Table& table, const TimeTable& motion, const std::string& clock, bool scene_names);
+
 }  // namespace chainreel

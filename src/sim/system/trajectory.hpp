@@ -51,6 +51,11 @@ struct EventHits {
   std::vector<double> q;   // nq numbers a hit: the state at that instant
   std::vector<double> qd;  // nv numbers a hit
   std::vector<int> from_start;  // those that held at t = 0 already
+  struct Hasty {
+    int event;
+    double t;  // s: when it was seen first
+  };
+  std::vector<Hasty> hasty;  // those whose values turn round from look to look: some of what happens is not seen
 
   int size() const { return int(t.size()); }
   std::span<const double> q_at(int k) const { return row(q, k); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/watch/dip.hpp"
 #include "sim/watch/events.hpp"
 #include "sim/watch/first_instant.hpp"
 
@@ -20,7 +21,6 @@ constexpr std::size_t kMostOpen = 5;  // corners at zero at once: 4^5 combinatio
 // How far behind an instant what jumps there is looked at: more than steps may end beside it.
 constexpr double kBehind = 16 * kInstantTolerance, kBehindInUnits = 0x1p-46;  // s; of t
 constexpr double kPole = 1e-3;  // a function is larger beside its pole
-constexpr double kGolden = 0.6180339887498949;
 constexpr int kMostLooksAtDip = 48;
 constexpr double kEnd =
     1e-3;  // of a look's part of the step: where it is looked at whether a margin rises at its end
@@ -88,28 +88,9 @@ std::optional<double> CornerWatch::crossing(Integrator& integrator, int k, doubl
   return there;
 }
 
-// A dip that may be sharp, like that of a distance: by golden section, as long as slopes like those seen
-// there could lead below zero.
 std::optional<double> CornerWatch::crossing_at_dip(Integrator& integrator, int k, double from, double to) {
-  const double slack = watched_[std::size_t(k)].slack;
-  double a = from, b = to, c = b - kGolden * (b - a), d = a + kGolden * (b - a);
-  double at_a = margin_at(integrator, k, a), at_b = margin_at(integrator, k, b);
-  double at_c = margin_at(integrator, k, c), at_d = margin_at(integrator, k, d);
-  for (int looks = 0; looks < kMostLooksAtDip; ++looks) {
-    const bool left = at_c < at_d;
-    if (std::min(at_c, at_d) < -slack) return crossing(integrator, k, from, left ? c : d);
-    const double fall = std::max(at_a - at_c, at_b - at_d) / (1 - kGolden);
-    if (!(std::min(at_c, at_d) < fall)) return {};
-    if (left) {
-      b = d, at_b = at_d, d = c, at_d = at_c;
-      c = b - kGolden * (b - a), at_c = margin_at(integrator, k, c);
-    } else {
-      a = c, at_a = at_c, c = d, at_c = at_d;
-      d = a + kGolden * (b - a), at_d = margin_at(integrator, k, d);
-    }
-    if (!(a < c && c < d && d < b)) return {};
-  }
-  return {};
+  const auto there = below_in_dip(from, to, -watched_[std::size_t(k)].slack, kMostLooksAtDip, [&](double t) { return margin_at(integrator, k, t); });
+  return there ? crossing(integrator, k, from, there->t) : std::nullopt;
 }
 
 // Dips in the first and the last part of the step: between looks that only rise there, or only fall.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "dynamics/equation_of_motion.hpp"
 #include "expr/course.hpp"
 #include "sim/drive/probe.hpp"
+#include "sim/watch/dip.hpp"
 #include "sim/watch/first_instant.hpp"
 
 namespace chainreel {
@@ -152,6 +154,11 @@ namespace {
 
 constexpr int kMostLooks = kLeastWatchedSteps * kLooksPerStep;  // at a step
 constexpr std::size_t kUsualHits = 64;  // room for as many is made before the run
+constexpr double kReach = 4;            // of the changes from look to look: what is farther from zero is not looked at closer
+constexpr double kInside = 1e-3;        // of a part, where its slopes are taken
+constexpr int kMostLooksAtVisit = 48;   // each narrows the part to 0.62 of itself
+constexpr int kHastyTurns = 3;
+constexpr double kTurning = 1e-6;       // of a value: its change, above rounding
 
 int sign_of(double x) {
   return (x > 0) - (x < 0);
@@ -186,7 +193,7 @@ EventWatch::EventWatch(const EventSet& events, ChainSystem& system, double durat
       q_(std::size_t(system.nq())),
       qd_(std::size_t(system.nv())),
       qdd_(std::size_t(system.nv())) {
-  pending_.reserve(events.list.size());
+  pending_.reserve(2 * events.list.size());
 }
 
 void EventWatch::set_probe(double t, ConstVec q, ConstVec qd) {
@@ -267,6 +274,49 @@ void EventWatch::record(Integrator& integrator, const Pending& hit, EventHits& h
   }
 }
 
+void EventWatch::look_within(Integrator& integrator, std::size_t i, double a, double b) {
+  if (!happens(events_.list[i], before_[i], now_[i])) return look_for_a_visit(integrator, i, a, b);
+  const double when = locate(integrator, i, a, b);
+  if (!is_pole(integrator, i, when, a, b)) pending_.push_back({int(i), when});
+}
+
+void EventWatch::look_for_a_visit(Integrator& integrator, std::size_t i, double a, double b) {
+  const Event& event = events_.list[i];
+  const State& before = before_[i];
+  if (before.holds || (event.test == Event::Test::changes_side && before.side == 0)) return;
+  const bool from_below = event.test == Event::Test::changes_side ? before.side < 0 : holds(event.test, 1.0);
+  const auto distance = [&](double value) { return from_below ? -value : value; };  // from zero, not below it until it happens
+  const double at_a = distance(before.value), at_b = distance(now_[i]);
+  const double change = std::max(std::fabs(at_b - at_a), std::fabs(before.change));
+  if (!(std::min(at_a, at_b) <= kReach * change)) return;
+  // Nearer at first, farther at last.
+  const double inside = kInside * (b - a);
+  const auto at = [&](double t) { return distance(value_at(integrator, event, t)); };
+  if (!(at(a + inside) < at_a) || !(at(b - inside) < at_b)) return;
+  // What holds at zero already happens there.
+  const double limit = event.test == Event::Test::at_or_above || event.test == Event::Test::at_or_below ? std::numeric_limits<double>::min() : 0;
+  const std::optional<Look> there = below_in_dip(a, b, limit, kMostLooksAtVisit, at);
+  if (!there) return;
+  const double nearest = there->t, value = from_below ? -there->value : there->value;
+  const auto read = [&](double t) { return value_at(integrator, event, t); };
+  pending_.push_back({int(i), first_instant({a, before.value}, {nearest, value}, read, [&](double y) { return happens(event, before, y); })});
+  if (event.test != Event::Test::changes_side) return;
+  const State beyond{value, false, sign_of(value)};
+  pending_.push_back({int(i), first_instant({nearest, value}, {b, now_[i]}, read, [&](double y) { return happens(event, beyond, y); })});
+}
+
+// A value that turns round at look after look, about zero or near it, has more turns between them than can be told.
+void EventWatch::look_for_haste(std::size_t i, double t, EventHits& hits) {
+  State& before = before_[i];
+  const double change = now_[i] - before.value, size = std::max(std::fabs(now_[i]), std::fabs(before.value));
+  const bool turns = change * before.change < 0 && std::fabs(change) > kTurning * size && std::fabs(before.change) > kTurning * size &&
+                     std::min(std::fabs(now_[i]), std::fabs(before.value)) < std::fabs(change);
+  before.turns = turns ? before.turns + 1 : 0;
+  if (before.turns != kHastyTurns) return;
+  const auto known = [&](const EventHits::Hasty& one) { return one.event == int(i); };
+  if (std::none_of(hits.hasty.begin(), hits.hasty.end(), known)) hits.hasty.push_back({int(i), t});
+}
+
 bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
   const double begin = integrator.begin_time(), end = integrator.time();
   // Of steps that are longer than those of methods that choose them more.
@@ -280,9 +330,8 @@ bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
     if (!(last ? read(t, integrator.q(), integrator.v()) : read(t, q_, qd_))) return false;
     pending_.clear();
     for (std::size_t i = 0; i < now_.size(); ++i) {
-      if (!happens(events_.list[i], before_[i], now_[i])) continue;
-      const double when = locate(integrator, i, instant(look - 1), t);
-      if (!is_pole(integrator, i, when, instant(look - 1), t)) pending_.push_back({int(i), when});
+      look_within(integrator, i, instant(look - 1), t);
+      look_for_haste(i, t, hits);
     }
     std::sort(pending_.begin(), pending_.end(),
               [](const Pending& x, const Pending& y) { return x.t != y.t ? x.t < y.t : x.event < y.event; });
@@ -292,7 +341,7 @@ bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
       if (ended_) return true;
     }
     for (std::size_t i = 0; i < now_.size(); ++i)
-      before_[i] = {now_[i], holds(events_.list[i].test, now_[i]), sign_of(now_[i])};
+      before_[i] = {now_[i], holds(events_.list[i].test, now_[i]), sign_of(now_[i]), now_[i] - before_[i].value, before_[i].turns};
   }
   return true;
 }

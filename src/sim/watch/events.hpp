@@ -7,7 +7,8 @@
 //               same. With a direction: when it has risen to zero, or fallen to it.
 //
 // Each step is looked at in kLooksPerStep equal parts, a long one in more: none is longer than such a part of a step of 1/256 of the run. An event is found where the expression differs between
-// the ends of a part; one that comes and goes within a part is not seen. Jumps are located like crossings;
+// the ends of a part, and where it comes nearer to zero within one and turns round behind it: the slopes at the ends say so. One that
+// turns round at several looks in a row is faster than they are: see EventHits::hasty. Jumps are located like crossings;
 // poles, where an expression changes its sign and is never zero, are none. The instant is exact to kInstantTolerance on the dense output, whose own error is the
 // method's: see Method::dense_order.
 #pragma once
@@ -154,6 +155,8 @@ class EventWatch {
     double value = 0;
     bool holds = false;  // what the event's test asks
     int side = 0;        // sign of the value, for Test::changes_side
+    double change = 0;   // of the value since the look before
+    int turns = 0;       // at how many looks in a row it has turned round
   };
   struct Pending {
     int event;
@@ -165,6 +168,11 @@ class EventWatch {
   double value_at(Integrator& integrator, const Event& event, double t);
   double locate(Integrator& integrator, std::size_t event, double begin, double end);
   bool is_pole(Integrator& integrator, std::size_t event, double t, double a, double b);
+  // What happens to an event in that part, if anything, into pending_.
+  void look_within(Integrator& integrator, std::size_t event, double a, double b);
+  // Of one that comes and goes again within it.
+  void look_for_a_visit(Integrator& integrator, std::size_t event, double a, double b);
+  void look_for_haste(std::size_t event, double t, EventHits& hits);
   static bool happens(const Event& event, const State& before, double value);
   void record(Integrator& integrator, const Pending& hit, EventHits& hits);
 

@@ -124,10 +124,21 @@ TEST(Ellipse, FillsTheBandBetweenItsLinesAndFadesItBeforeTheEdge) {
 }
 
 TEST(Ellipse, NearlySingularIsStillNeverANumberThatWasCut) {
-  // lambda_max is 4e6 kg here and would end far outside: the band is open, and its width is the minor axis.
-  const DrawnEllipse nearly({0, 1e-3});
+  // lambda_max is 4e12 kg here: the band is open, and its width is the minor axis.
+  const DrawnEllipse nearly({0, 1e-6});
   EXPECT_TRUE(test::all_of<Ellipse>(nearly.picture).empty());
   EXPECT_EQ(nearly.words(), "\u221E\u221E");
+}
+
+// Of 4e8 kg the page shows the same curve as of 4e5 kg: of an axis of ten million pages rounding was left, ten times as wide.
+TEST(Ellipse, OfAMassBeyondAllPagesIsAsLongAsOneCanSee) {
+  const DrawnEllipse heavy({0, 5e-5}), light({0, 1.6e-3});
+  const auto of_heavy = test::all_of<Ellipse>(heavy.picture), of_light = test::all_of<Ellipse>(light.picture);
+  ASSERT_FALSE(of_heavy.empty());
+  ASSERT_FALSE(of_light.empty());
+  EXPECT_NEAR(norm(of_heavy[0].u), norm(of_light[0].u), 1e-6);
+  EXPECT_NEAR(norm(of_heavy[0].v), norm(of_light[0].v), 1e-6);
+  EXPECT_EQ(heavy.words().find("\u221E"), std::string::npos) << heavy.words();
 }
 
 // RR near its stretched pose, but regular: of Lambda_inv the smaller eigenvalue is 1e-4 of the larger one or

@@ -102,11 +102,40 @@ TEST(Events, TwoInOneStepAreBothFoundWhereTheyLieInDifferentParts) {
   EXPECT_NEAR(times[1], (2 + root) / g, kInstant);
 }
 
-TEST(Events, WhatComesAndGoesWithinAPartIsNotSeen) {
-  // 0.2038735 m is passed for 0.3 ms about the top, at 417.5 parts of 1/2048 s: as long as no look is nearer than that.
-  EXPECT_EQ(times_of(thrown(2, 0.5, {event("q2 - 0.2038735")})).size(), 0u);
-  EXPECT_EQ(times_of(thrown(2, 0.002, {event("q2 - 0.2038735")})).size(), 2u) << "an eighth of 2 ms";
-  EXPECT_EQ(times_of(thrown(2, 0.5, {event("q2 - 0.2035")})).size(), 2u) << "17 ms, in a step of half the run";
+// 0.2038735 m is passed for 0.3 ms about the top, 1.4e-7 m above it, within one of 2048 parts of a step of 0.5 s.
+TEST(Events, AreFoundWhereTheyComeAndGoWithinAPart) {
+  const double root = std::sqrt(4 - 2 * g * 0.2038735);
+  for (const double step : {0.5, 0.05, 0.002}) {
+    const std::vector<double> times = times_of(thrown(2, step, {event("q2 - 0.2038735")}));
+    ASSERT_EQ(times.size(), 2u) << step;
+    // It passes at g times 0.3 ms, so that an error of q2 of round-off is one of 1e-13 s.
+    EXPECT_NEAR(times[0], (2 - root) / g, 10 * kInstant) << step;
+    EXPECT_NEAR(times[1], (2 + root) / g, 10 * kInstant) << step;
+    const std::vector<double> above = times_of(thrown(2, step, {event("q2 > 0.2038735")}));
+    ASSERT_EQ(above.size(), 1u) << step;
+    EXPECT_NEAR(above[0], times[0], kInstant) << step;
+  }
+  const Trajectory stopped = simulate(thrown(2, 0.5, {event("q2 > 0.2038735", EventKind::stop)}), {});
+  EXPECT_NEAR(stopped.end_time, (2 - root) / g, 10 * kInstant);
+  // The top is at 0.20387360 m.
+  EXPECT_TRUE(times_of(thrown(2, 0.5, {event("q2 - 0.2038738"), event("q2 > 0.2038738"), event("q2 < -4")})).empty()) << "negative control";
+}
+
+// 0.66 looks a period, of 2048 a run: some are not seen, and that is said.
+TEST(Events, ThatAreFasterThanLooksAreHasty) {
+  const auto run_with = [](double step, const std::string& when) {
+    return simulate(thrown(0, step, {event(when)}), {});
+  };
+  for (const char* when : {"sin(20000 * t) - 0.1", "sin(20000 * t) > 0.9"}) {
+    const Trajectory coarse = run_with(0.01, when), fine = run_with(0.0005, when);
+    ASSERT_EQ(coarse.events.hasty.size(), 1u) << when;
+    EXPECT_LT(coarse.events.hasty[0].t, 0.02) << when;
+    EXPECT_LT(coarse.events.size(), fine.events.size()) << when;
+    EXPECT_TRUE(fine.events.hasty.empty()) << "negative control: " << when;
+  }
+  const Trajectory fine = run_with(0.0005, "sin(20000 * t) - 0.1");
+  EXPECT_EQ(fine.events.size(), 2 * 3183 + 1) << "of 3183.1 periods";
+  EXPECT_TRUE(run_with(0.01, "sin(20000 * t) * 1e-9 + q2 + 1").events.hasty.empty()) << "it is the fall that is looked at";
 }
 
 TEST(Events, AtOneInstantComeInTheOrderOfTheScene) {

@@ -1,0 +1,177 @@
+#include "sim/rank_loss.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/format.hpp"
+#include "dynamics/constraints/constrained_mass.hpp"
+#include "dynamics/constraints/constraint_rows.hpp"
+#include "integrate/hermite_span.hpp"
+#include "sim/system/chain_system.hpp"
+#include "sim/watch/dip.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kNoRow = 1e-10;        // an eigenvalue, squared, of rows of size 1: rounding
+constexpr int kMostMinima = 64;            // minima looked at closer
+constexpr int kMostLooksAtPose = 60;    // each narrows an interval to 0.62 of itself
+constexpr int kInstantsAbout = 400;     // of a second run, between three samples
+constexpr double kFar = 2;              // of a change from sample to sample
+constexpr double kSpared = 0.02;        // of the time until it
+
+class RowStrengths {
+ public:
+  RowStrengths(const Simulation& simulation, const Trajectory& trajectory)
+      : chain_(simulation.chain),
+        trajectory_(trajectory),
+        system_(simulation),
+        ws_(chain_),
+        set_(chain_, simulation.constraints.list),
+        cws_(chain_, set_),
+        span_(chain_.nq, chain_.nv),
+        rows_(set_.rows()),
+        scale_(Eigen::VectorXd::Zero(rows_)),
+        q_(std::size_t(chain_.nq)),
+        qd_(std::size_t(chain_.nv)) {
+    follow([&] { scale_ = scale_.cwiseMax(matrix().diagonal()); });
+    scale_ = scale_.unaryExpr([](double size) { return size > 0 ? 1 / std::sqrt(size) : 0; });
+    std::vector<Eigen::VectorXd> found;
+    follow([&] {
+      found.push_back(eigenvalues());
+      rank_ = std::max(rank_, int((found.back().array() > kNoRow).count()));
+    });
+    if (rank_ == 0) return;
+    for (const Eigen::VectorXd& one : found) strengths_.push_back(root_of(one));
+    largest_ = *std::max_element(strengths_.begin(), strengths_.end());
+  }
+
+  // The pose of the first sample, or of an instant behind it on the cubic to the next, that lies below the limit.
+  std::optional<RankLoss> first_loss() {
+    for (const int k : minima()) {
+      if (at(k) < kDependentRows * largest_) return RankLoss{trajectory_.t[std::size_t(k)], at(k) / largest_};
+      for (const int before : {k - 1, k})
+        if (before >= 0 && before + 1 < size())
+          if (const auto found = loss_between(before)) return found;
+    }
+    return {};
+  }
+
+  // Instants near together about each sample at which such a pose may be near: what changes as fast there as from sample to sample could reach zero.
+  std::vector<double> instants_about_minima() const {
+    std::vector<double> times;
+    for (const int k : minima()) {
+      const int before = std::max(k - 1, 0), behind = std::min(k + 1, size() - 1);
+      if (!(at(k) < kFar * std::max(at(before) - at(k), at(behind) - at(k)))) continue;
+      const double begin = trajectory_.t[std::size_t(before)], end = trajectory_.t[std::size_t(behind)];
+      for (int i = 1; i < kInstantsAbout; ++i) times.push_back(begin + (end - begin) * i / kInstantsAbout);
+    }
+    return times;
+  }
+
+ private:
+  int size() const { return int(strengths_.size()); }
+  double at(int k) const { return strengths_[std::size_t(k)]; }
+
+  // Samples that are weaker than those beside them, the weakest of many.
+  std::vector<int> minima() const {
+    std::vector<int> found;
+    for (int k = 0; k < size(); ++k)
+      if ((k == 0 || at(k) <= at(k - 1)) && (k + 1 == size() || at(k) <= at(k + 1)) && at(k) < largest_ / 2) found.push_back(k);
+    if (found.size() > kMostMinima) {
+      std::nth_element(found.begin(), found.begin() + kMostMinima, found.end(), [&](int a, int b) { return at(a) < at(b); });
+      found.resize(kMostMinima);
+      std::sort(found.begin(), found.end());
+    }
+    return found;
+  }
+
+  // At each sample in turn, as curves are followed.
+  template <class Function>
+  void follow(Function&& look) {
+    cws_ = ConstrainedWorkspace(chain_, set_);
+    for (int k = 0; k < trajectory_.size(); ++k) {
+      if (!set_.curves().empty() && int(curve_s_.size()) < trajectory_.size()) curve_s_.push_back(cws_.curve_s);
+      place(trajectory_.q_at(k));
+      look();
+    }
+  }
+
+  void place(ConstVec q) {
+    compute_constraints(chain_, ws_, set_, cws_, q, qd_);
+    factor_mass(chain_, ws_, cws_, q);
+    compute_row_system(chain_, ws_, cws_);
+  }
+
+  Eigen::MatrixXd matrix() {
+    Eigen::MatrixXd G(rows_, rows_);
+    for (int i = 0; i < rows_; ++i)
+      for (int j = 0; j <= i; ++j) G(i, j) = G(j, i) = cws_.solver.G(i, j);
+    return G;
+  }
+
+  Eigen::VectorXd eigenvalues() {
+    const Eigen::MatrixXd scaled = scale_.asDiagonal() * matrix() * scale_.asDiagonal();
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  }
+
+  double root_of(const Eigen::VectorXd& eigenvalues) const { return std::sqrt(std::max(0.0, eigenvalues(rows_ - rank_))); }
+
+  std::optional<RankLoss> loss_between(int k) {
+    const double low = trajectory_.t[std::size_t(k)], high = trajectory_.t[std::size_t(k) + 1];
+    if (!(high > low)) return {};
+    span_.start();
+    span_.begin(low, trajectory_.q_at(k), trajectory_.qd_at(k));
+    span_.end(high, trajectory_.q_at(k + 1), trajectory_.qd_at(k + 1));
+    std::vector<double> rate(qd_.size());
+    const auto there = below_in_dip(low, high, kDependentRows, kMostLooksAtPose, [&](double t) {
+      if (!curve_s_.empty()) cws_.curve_s = curve_s_[std::size_t(k)];
+      span_.interpolate_apart(system_, t, q_, rate);
+      place(q_);
+      return root_of(eigenvalues()) / largest_;
+    });
+    return there ? std::optional(RankLoss{there->t, there->value}) : std::nullopt;
+  }
+
+  const Chain& chain_;
+  const Trajectory& trajectory_;
+  ChainSystem system_;
+  Workspace ws_;
+  ConstraintSet set_;
+  ConstrainedWorkspace cws_;
+  HermiteSpan span_;
+  int rows_, rank_ = 0;
+  Eigen::VectorXd scale_;  // 1 / the root of the largest diagonal
+  double largest_ = 0;
+  std::vector<double> strengths_;             // of the samples
+  std::vector<std::vector<double>> curve_s_;  // before each, where there are curves
+  std::vector<double> q_, qd_;                // qd_: zero, no rate is asked
+};
+
+}  // namespace
+
+std::optional<RankLoss> rank_loss_of(const Simulation& simulation, const Trajectory& trajectory) {
+  if (trajectory.rows == 0 || trajectory.size() < 2) return {};
+  std::vector<double> times = RowStrengths(simulation, trajectory).instants_about_minima();
+  if (times.empty()) return {};
+  // A cubic through samples is none of a motion that turned another way between them: that is seen in the run itself.
+  times.insert(times.end(), trajectory.t.begin(), trajectory.t.end());
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return RowStrengths(simulation, simulate(simulation, times)).first_loss();
+}
+
+std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajectory& trajectory) {
+  const std::optional<RankLoss> loss = rank_loss_of(simulation, trajectory);
+  if (!loss) return {};
+  const double end = std::floor(loss->t * (1 - kSpared) * 1e3) * 1e-3;
+  return Doubt{"rank", loss->part,
+               "at t = " + format_significant(loss->t, 4) + " s constraints that are independent elsewhere depend on each other, as of links in one line: which way "
+               "the motion goes on there, and lambda, the equations do not say",
+               end > 0 ? "--set duration=" + format_shortest(end) + ", which ends before it" : "a start away from it"};
+}
+
+}  // namespace chainreel

@@ -1,0 +1,98 @@
+// `chainreel check --today` of tables that commands write beside figures, of JSON, and of pictures whose pixels were changed.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/image.hpp"
+#include "encode/png.hpp"
+#include "support/own_model.hpp"
+#include "support/run_program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace chainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kRoot = CHAINREEL_SOURCE_FOLDER;
+
+TEST(TablesOfToday, BesideFiguresAreAskedAndMadeAgain) {
+  const TemporaryFolder folder;
+  const std::string own = own_model();
+  folder.write("a.urdf", own);
+  folder.write("f.yaml", "model: a.urdf\nduration: 0.3\nmethod: rk4\nevents: [{when: y_G < -0.1, kind: fall}]\n");
+  const RunOptions there{.folder = folder.path().string()};
+  const auto run = [&](const Words& words) { return run_program(words, there); };
+  ASSERT_EQ(run({"ellipse", "a.urdf", "--pose", "0,90deg", "-o", "out/e.pdf", "-o", "out/e.csv", "-o", "out/e.json", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"fall", "f.yaml", "-o", "out/f.csv", "-o", "out/f.json", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"simulate", "f.yaml", "-o", "out/s.json", "-o", "out/s.csv", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"energy", "f.yaml", "--methods", "rk4", "-o", "out/n.json", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"stability", "f.yaml", "--methods", "rk4", "-o", "out/m.json", "--quiet"}).status, 0);
+  const ProgramResult same = run({"check", "out", "--today"});
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  for (const char* table : {"out/e.csv", "out/e.json", "out/f.csv", "out/f.json", "out/s.json", "out/n.json", "out/m.json"})
+    EXPECT_THAT(same.out, HasSubstr(std::string(table) + " is what")) << table;
+  EXPECT_THAT(same.err, Not(HasSubstr("not asked about"))) << same.err;
+
+  folder.write("a.urdf", heavier(own));
+  EXPECT_EQ(run({"check", "out/e.json", "--today"}).status, 1);
+  const std::string before = read_whole_file(folder.file("out/e.csv")), of_json = read_whole_file(folder.file("out/e.json"));
+  const ProgramResult told = run({"check", "out", "--today", "--commands"});
+  EXPECT_EQ(told.status, 1);
+  const ProgramResult made = run_told(told.out, folder.path().string());
+  EXPECT_EQ(made.status, 0) << told.out << made.err;
+  EXPECT_NE(read_whole_file(folder.file("out/e.csv")), before);
+  EXPECT_NE(read_whole_file(folder.file("out/e.json")), of_json);
+  const ProgramResult again = run({"check", "out", "--today"});
+  EXPECT_EQ(again.status, 0) << again.out;
+
+  // What was edited or is gone is told.
+  folder.write("out/f.json", "{}\n");
+  fs::remove(folder.file("out/s.json"));
+  const ProgramResult changed = run({"check", "out", "--today"});
+  EXPECT_EQ(changed.status, 1);
+  EXPECT_THAT(changed.out, HasSubstr("out/f.json is NOT"));
+  EXPECT_THAT(changed.out, HasSubstr("out/s.json is gone"));
+  // A chart measures: no record lies beside its numbers.
+  ASSERT_EQ(run({"chart", "f.yaml", "--methods", "rk4,verlet", "-o", "out/c.json", "--quiet"}).status, 0);
+  EXPECT_FALSE(fs::exists(folder.file("out/c.json.json")));
+}
+
+// A still has no audit beside it: it tells of its own pixels.
+TEST(PicturesOfToday, WithOtherPixelsAreNotAsTheyWereWritten) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: " + kRoot + "/models/rr.urdf\nduration: 0.2\nmethod: rk4\nvideo: {width: 320, height: 180}\n");
+  const std::string still = folder.file("s.png"), figure = folder.file("e.png");
+  ASSERT_EQ(run_program({"snapshot", scene, "--at", "0.1", "-o", still, "--quiet"}).status, 0);
+  ASSERT_EQ(run_program({"ellipse", kRoot + "/models/rr.urdf", "--pose", "0,90deg", "-o", figure, "--quiet"}).status, 0);
+  for (const std::string& file : {still, figure}) {
+    const ProgramResult same = run_program({"check", file, "--today", "--json"});
+    EXPECT_EQ(same.status, 0) << same.out << same.err;
+    const auto text = read_png_text(file);
+    Image image = read_png(file);
+    folder.write(fs::path(file).filename().string(), with_png_text(png_bytes(image), text));
+    EXPECT_EQ(run_program({"check", file, "--today"}).status, 0) << "negative control: compressed anew " << file;
+    image.bgra[4000] ^= 1;
+    folder.write(fs::path(file).filename().string(), with_png_text(png_bytes(image), text));
+    const ProgramResult edited = run_program({"check", file, "--today"});
+    EXPECT_EQ(edited.status, 1) << file;
+    EXPECT_THAT(edited.out, HasSubstr("its pixels are others")) << file;
+  }
+}
+
+// A picture at the very end is like a frame of the film, which needs more libraries.
+TEST(PicturesOfToday, OfTheEndAreOfThisVersion) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: " + kRoot + "/models/rr.urdf\nduration: 0.2\nmethod: rk4\nvideo: {width: 320, height: 180}\n");
+  ASSERT_EQ(run_program({"snapshot", scene, "--at", "0.2", "-o", folder.file("s.png"), "--quiet"}).status, 0);
+  const ProgramResult same = run_program({"check", folder.file("s.png"), "--today"});
+  EXPECT_EQ(same.status, 0);
+  EXPECT_THAT(same.out, Not(HasSubstr("other versions")));
+}
+
+}  // namespace
+}  // namespace chainreel
