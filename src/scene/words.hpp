@@ -8,7 +8,7 @@ namespace chainreel {
 // How the root link is held.
 enum class RootLink { fixed, floating };
 // What a run is to do.
-enum class Outcome { finish, diverge };
+enum class Outcome { finish, diverge, within_limits };
 // What of a model is drawn: bars, or its shapes; `automatic` is visual in space.
 enum class LinkShapes { automatic, plain, visual, collision };
 // How the layer `ellipse` reads the effective mass: see draw/ellipse.hpp.

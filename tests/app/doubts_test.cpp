@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "core/json.hpp"
 #include "support/run_program.hpp"
@@ -12,6 +13,7 @@
 namespace chainreel {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -115,6 +117,28 @@ TEST(Doubts, OfLimitsThatTheModelDoesNotHave) {
   EXPECT_THAT(cut.err, HasSubstr("a: joint 'joint1' passed its effort limit 20 with 141 at t = 0 s: by limit: clamp, torques beyond it are cut"));
   EXPECT_THAT(cut.err, Not(HasSubstr("position limit")));
   EXPECT_EQ(run_program(with(limited, {"--quiet"})).err, "");
+}
+
+// A script asks by the exit code whether joints stay within their limits.
+TEST(Doubts, ThatALimitIsPassedIsAnErrorWhereTheSceneExpectsNone) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", "model: {links: [0.5, 0.4], masses: [2, 1], efforts: 20}\nduration: 0.1\nmethod: rk4\ntorque: [19, 0]\nexpect: within_limits\n"
+                                                   "video: {width: 320, height: 180}\n");
+  const auto run = [&](const std::string& torque, const Words& more) {
+    return run_program(with(with({"simulate", scene, "-o", folder.file("a.csv"), "--force", "--quiet", "--set", "torque.1=" + torque}, more), {}));
+  };
+  EXPECT_EQ(run("19", {}).status, 0);
+  for (const char* limit : {"report", "clamp", "stop"}) {
+    const ProgramResult passed = run("21", {"--set", std::string("limit=") + limit});
+    EXPECT_EQ(passed.status, 7) << limit;
+    EXPECT_THAT(passed.err, HasSubstr("joint 'joint1' passed its effort limit 20 with 21 at t = 0 s, and `expect: within_limits` stands there")) << limit;
+  }
+  EXPECT_EQ(run("21", {"--set", "expect=finish"}).status, 0) << "negative control";
+  EXPECT_EQ(run_program({"render", scene, "--set", "torque.1=21", "-o", folder.file("a.mp4")}).status, 7);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.mp4")));
+  ASSERT_EQ(run_program({"sweep", scene, "--over", "torque.1=19,21", "-o", folder.file("s.csv"), "--quiet"}).status, 5);
+  EXPECT_THAT(read_whole_file(folder.file("s.csv")), AllOf(HasSubstr("\n0,19,1,"), HasSubstr("\n1,21,0,")));
+  EXPECT_THAT(run_program({"check", scene, "--set", "model={links: [0.5, 0.4], masses: [2, 1]}"}).err, HasSubstr("expect: within_limits is always fulfilled"));
 }
 
 // `simulate` and `render` say the same of one run.

@@ -669,10 +669,35 @@ TEST(SweepMap, ShowsAColumnOfTheTableOverItsTwoKeys) {
   EXPECT_FALSE(fs::exists(folder.file("x.csv"))) << "said before anything is computed";
   EXPECT_THAT(swept({"-o", folder.file("y.png")}).err, HasSubstr("a map shows one column of the table"));
   EXPECT_THAT(swept({"--peaks", "qd", "--shard", "1/2", "-o", folder.file("z.png")}).err, HasSubstr("a share of the runs makes no map"));
-  EXPECT_THAT(swept({"--map", "qd1", "-o", folder.file("t.csv")}).err, HasSubstr("--map says what a map shows"));
-  const ProgramResult one = run_program({"sweep", scene, "--over", "gravity.2=-8:-2:4", "--peaks", "qd", "-o", folder.file("one.png")});
-  EXPECT_THAT(one.err, HasSubstr("a map has two axes"));
-  EXPECT_FALSE(fs::exists(folder.file("one.csv")));
+  EXPECT_THAT(swept({"--map", "qd1", "-o", folder.file("t.csv")}).err, HasSubstr("--map says what a picture shows"));
+  const ProgramResult three = run_program({"sweep", scene, "--over", "gravity.2=-8:-2:4", "--over", "start.q.1=0:1:2", "--over", "start.q.2=0:1:2", "--peaks", "qd", "-o", folder.file("three.png")});
+  EXPECT_THAT(three.err, HasSubstr("one key as curves, or two as a map"));
+  EXPECT_FALSE(fs::exists(folder.file("three.csv")));
+}
+
+// Over one key a picture has a curve for the peaks of each joint, whose marks are the table's numbers.
+TEST(SweepTable, OverOneKeyIsDrawnAsCurves) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a.yaml", "title: Payloads\nmodel: " + std::string(CHAINREEL_SOURCE_FOLDER) + "/models/rr.urdf\nduration: 0.5\nmethod: rk4\n"
+                                                   "events: [{when: y_G < -1, name: low}]\n");
+  const auto swept = [&](const Words& more) { return run_program(with({"sweep", scene, "--over", "start.q.1=-60deg:0:4", "--force"}, more)); };
+  const ProgramResult run = swept({"--peaks", "qd,tau", "-o", folder.file("p.svg"), "-o", folder.file("p.png")});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(fs::exists(folder.file("p.csv")));
+  const std::string svg = read_whole_file(folder.file("p.svg"));
+  EXPECT_THAT(svg, AllOf(HasSubstr("Payloads"), HasSubstr("4 runs of 0.5 s"), HasSubstr("Each mark is a run"), Not(HasSubstr("crosses"))));
+  EXPECT_EQ(run_program({"check", folder.file("p.svg"), folder.file("p.csv"), "--today"}).status, 0);
+  // One joint; what has no value is a cross on the axis; what is no column is said before anything is computed.
+  ASSERT_EQ(swept({"--peaks", "qd", "--map", "qd2", "-o", folder.file("q.svg")}).status, 0);
+  EXPECT_NE(read_whole_file(folder.file("q.svg")), svg);
+  ASSERT_EQ(swept({"--map", "low", "-o", folder.file("e.svg")}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("e.svg")), HasSubstr("crosses on the axis"));
+  EXPECT_THAT(swept({"--map", "qd3", "--peaks", "qd", "-o", folder.file("x.png")}).err, HasSubstr("--map qd3: the table has no such column"));
+  EXPECT_FALSE(fs::exists(folder.file("x.csv")));
+  const ProgramResult falling = run_program({"sweep", scene, "--over", "start.q.1=1,0", "--peaks", "qd", "-o", folder.file("f.png")});
+  EXPECT_THAT(falling.err, HasSubstr("takes rising numbers"));
+  const ProgramResult words = run_program({"sweep", scene, "--over", "method=rk4,verlet", "--peaks", "qd", "-o", folder.file("w.png")});
+  EXPECT_THAT(words.err, HasSubstr("takes rising numbers"));
 }
 
 }  // namespace

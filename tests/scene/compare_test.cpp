@@ -111,7 +111,7 @@ TEST_F(CompareScene, BlamesTheLineOfThePanel) {
   EXPECT_THAT(error(head + "  - {duration: 1}\n"),
               HasSubstr("one.yaml:7:6: 'duration' belongs to the whole"));
   EXPECT_THAT(error(head + "  - {video.width: 640}\n"), HasSubstr("'video' belongs to the whole picture"));
-  EXPECT_THAT(error(head + "  - {expect: explode}\n"), HasSubstr("'expect' must be finish or diverge"));
+  EXPECT_THAT(error(head + "  - {expect: explode}\n"), HasSubstr("'expect' must be finish, diverge or within_limits"));
 }
 
 TEST_F(CompareScene, TellsAProblemOfAllPanelsOnce) {

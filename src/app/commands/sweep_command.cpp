@@ -296,13 +296,13 @@ void check_outputs(const SweepOptions& options) {
       ++maps;
       if (!options.shard.empty()) throw Error(ExitCode::usage, "-o " + output + ": a share of the runs makes no map: --shard goes with tables and folders");
     } else {
-      throw Error(ExitCode::usage, "-o " + output + ": a sweep writes a table (.csv, .json, .npz), a map of it (.png, .svg, .pdf), or files into a FOLDER/, as --each says");
+      throw Error(ExitCode::usage, "-o " + output + ": a sweep writes a table (.csv, .json, .npz), a picture of it (.png, .svg, .pdf), or files into a FOLDER/, as --each says");
     }
   }
   if (folders > 1) throw Error(ExitCode::usage, "-o takes one folder: --each png --each csv writes several files a run into it");
   if (tables > 1 && !options.shard.empty()) throw Error(ExitCode::usage, "-o: a share of a table is one .csv, and is joined before it becomes others");
   refuse_twice(options.outputs);
-  if (maps == 0 && !options.map.empty()) throw Error(ExitCode::usage, "--map says what a map shows: name one with -o MAP.png");
+  if (maps == 0 && !options.map.empty()) throw Error(ExitCode::usage, "--map says what a picture shows: name one with -o MAP.png");
   if (tables + maps == 0 && (!options.peaks.empty() || !options.last.empty()))
     throw Error(ExitCode::usage, std::string(options.peaks.empty() ? "--last" : "--peaks") + " says what a table holds: name one with -o TABLE.csv");
   for (std::size_t i = 0; i < options.last.size(); ++i)
@@ -333,7 +333,9 @@ std::vector<std::string> maps_of(SweepOptions& options) {
 void draw_maps(const SweepOptions& options, const Grid& grid, const std::vector<std::string>& maps, const std::string& table) {
   const Scene scene = read_scene(options.scene, overrides_of(options.common));
   const Fonts fonts(families_of(scene));
-  const Picture picture = stability_map(sweep_map(grid, scene, table, options.last, options.map), chart_look(options.figure, scene, fonts));
+  const ChartLook look = chart_look(options.figure, scene, fonts);
+  const Picture picture = grid.axes().size() == 1 ? response_chart(sweep_curves(grid, scene, table, options.last, options.map), look)
+                                                  : stability_map(sweep_map(grid, scene, table, options.last, options.map), look);
   const ClipMemory memory = memory_of_chart(options.figure);
   for (const std::string& path : maps) write_figure(options.figure, picture, fonts, memory, path, options.common.force);
 }
@@ -417,7 +419,7 @@ void add_sweep_command(CommandLine& app) {
                           "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it (repeatable: all combinations)")
       .required();
   command->add_repeatable("-o,--output", options->outputs,
-                          "a .csv, .json or .npz table with a row a run, a .png, .svg or .pdf map of it over two keys, or a FOLDER/ with files a run "
+                          "a .csv, .json or .npz table with a row a run, a .png, .svg or .pdf picture of it, curves over one key or a map over two, or a FOLDER/ with files a run "
                           "(repeatable; default out/NAME_sweep.csv)");
   command->add_repeatable("--each", options->each, "what a run becomes in the folder: mp4 (default), png, svg, gif, csv, ..; repeatable");
   command->add_option("--peaks", options->peaks,
@@ -425,7 +427,7 @@ void add_sweep_command(CommandLine& app) {
                       "table; names as of `simulate --columns`");
   command->add_repeatable("--last", options->last,
                           "an expression whose value at the end of each run is a column of the table, like 'x_G' or 'sqrt((x_G - 0.9)^2 + (y_G - 0.3)^2)'; repeatable");
-  command->add_option("--map", options->map, "the column that a map shows (default the first of --peaks, else of --last)");
+  command->add_option("--map", options->map, "the column that a picture shows, of curves those of all joints, like tau (default the first of --peaks, else of --last)");
   options->figure.command = command;
   command->add_option("--at", options->at, "instant that pictures show, in seconds (default 0)");
   command->add_option("--shard", options->shard, "an equal share of the runs, like 3/8; slurm: that of the array job's task");
@@ -440,6 +442,7 @@ void add_sweep_command(CommandLine& app) {
                   "delimiter=',', names=True, skip_header=3); .npz and .json have none.\n"
                   "Example: chainreel sweep rr_free --over start.q.1=0:90deg:4 --over gravity.2=-9.81,-1.62 --peaks qd,energy_error -o out/grid.csv\n"
                   "         chainreel sweep rr_free --over start.q.1=0:90deg:10 --over payload.mass=0:5:6 --peaks qd --map qd2 -o out/map.png\n"
+                  "         chainreel sweep rr_torque --over payload.mass=0:3:7 --peaks tau,qd -o out/payload.png\n"
                   "         chainreel sweep pp_spring --over parameters.k=20:220:6 --over duration=1s,2s --last 'y_G - 0.3' -o out/last.png");
   command->callback([options] { run_sweep(*options); });
 }

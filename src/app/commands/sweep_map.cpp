@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <sstream>
 
@@ -71,10 +72,23 @@ std::string method_of(const Grid& grid, const Scene& scene) {
   return varies_method(grid) || scene.chooses_method() ? "" : ", " + method_title(scene.method) + method_text(scene).substr(scene.method.size());
 }
 
+bool is_read_in_degrees(const Sweep& sweep) {
+  return !sweep.logarithmic && title_of_axis(sweep).find("[rad]") != std::string::npos;
+}
+
+double degrees_of(const Sweep& sweep) {
+  return is_read_in_degrees(sweep) ? 180 / std::numbers::pi : 1;
+}
+
+// "peak_tau [N m]" of "peak_tau1 [N m]".
+std::string stem_column(const std::string& column) {
+  const ColumnName name(column);
+  return kPeak + without_number(plain_name(column)) + (name.unit.empty() ? "" : " [" + name.unit + "]");
+}
+
 // With ticks at the values, where these are few, and angles in degrees, as they are read.
-Axis axis_of(const Sweep& sweep) {
+Axis in_its_units(const Sweep& sweep, Axis axis) {
   constexpr std::size_t kFewValues = 12;
-  Axis axis = map_axis(sweep);
   if (!sweep.logarithmic && sweep.numbers.size() <= kFewValues) axis.at = sweep.numbers;
   const std::size_t unit = axis.title.find("[rad]");
   if (unit == std::string::npos || sweep.logarithmic) return axis;
@@ -85,6 +99,15 @@ Axis axis_of(const Sweep& sweep) {
   return axis;
 }
 
+Axis axis_of(const Sweep& sweep) {
+  return in_its_units(sweep, map_axis(sweep));
+}
+
+// From the first value to the last.
+Axis curve_axis_of(const Sweep& sweep) {
+  return in_its_units(sweep, {sweep.logarithmic ? Scale::log : Scale::linear, sweep.numbers.front(), sweep.numbers.back(), title_of_axis(sweep)});
+}
+
 }  // namespace
 
 bool is_map_path(const std::string& path) {
@@ -92,13 +115,85 @@ bool is_map_path(const std::string& path) {
 }
 
 void require_map_grid(const Grid& grid) {
-  if (grid.axes().size() != 2)
-    throw Error(ExitCode::usage, "a map has two axes: give --over twice, like --over start.q.1=0:90deg:10 --over payload.mass=0:5:6");
-  for (const Sweep& axis : grid.axes()) require_map_axis(axis, "--over " + axis.key);
+  const std::vector<Sweep>& axes = grid.axes();
+  if (axes.size() > 2)
+    throw Error(ExitCode::usage, "a picture shows one key as curves, or two as a map: give --over once or twice, like --over start.q.1=0:90deg:10 --over payload.mass=0:5:6");
+  if (axes.size() == 1) {
+    const std::vector<double>& v = axes.front().numbers;
+    if (v.size() < 2 || !std::ranges::is_sorted(v, std::less_equal<>{}) || (axes.front().logarithmic && !(v.front() > 0)))
+      throw Error(ExitCode::usage, "--over " + axes.front().key + " of a picture takes rising numbers: KEY=from:to:count, or a list like KEY=0,1,2.5");
+    return;
+  }
+  for (const Sweep& axis : axes) require_map_axis(axis, "--over " + axis.key);
 }
 
+namespace {
+
+// The columns whose curves one picture has.
+std::vector<std::size_t> columns_together(const std::vector<std::string>& header, const Grid& grid, const std::vector<std::string>& last, const std::string& wanted) {
+  const auto is_peak = [&](std::size_t i) { return ColumnName(header[i]).name.starts_with(kPeak); };
+  const auto stem_of = [&](std::size_t i) { return without_number(plain_name(header[i])); };
+  std::vector<std::size_t> found;
+  for (std::size_t i = 1 + grid.axes().size(); i < header.size(); ++i)
+    if (is_peak(i) && stem_of(i) == wanted) found.push_back(i);
+  if (!found.empty()) return found;
+  const std::size_t first = find_column(header, grid, last, wanted);
+  if (!wanted.empty() || !is_peak(first)) return {first};
+  for (std::size_t i = first; i < header.size(); ++i)
+    if (is_peak(i) && stem_of(i) == stem_of(first) && ColumnName(header[i]).unit == ColumnName(header[first]).unit) found.push_back(i);
+  return found;
+}
+
+// A run's number in a column.
+struct RowValue {
+  std::optional<double> value;  // nothing where the run failed, too; of a peak the size: where its sign changes from run to run no neighbours would be alike
+  bool is_doubtful = false;
+};
+
+// A table's rows, each with its run and its value in each of the columns that `choose` picks of the header.
+std::vector<std::string> read_rows(const Grid& grid, const std::string& path, const std::function<std::vector<std::size_t>(const std::vector<std::string>& header)>& choose,
+                                   const std::function<void(std::size_t run, std::size_t column, const RowValue& value)>& look) {
+  std::istringstream text(read_plain_file(path));
+  std::vector<std::string> header;
+  std::vector<std::size_t> columns;
+  std::size_t good = 0;
+  int number = 0;
+  for (std::string line; std::getline(text, line);) {
+    const Place place{path, ++number};
+    if (line.empty() || line.front() == '#') continue;
+    const std::vector<std::string> fields = csv_fields(line, place);
+    if (header.empty()) {
+      header = fields;
+      columns = choose(header);
+      good = std::size_t(std::ranges::find(header, kGood) - header.begin());
+      continue;
+    }
+    const std::optional<double> run = parse_number(fields.front());
+    if (fields.size() != header.size() || !run || !(*run >= 0 && *run < double(grid.size()))) throw Error(ExitCode::bad_input, "is no row of this sweep", place);
+    const bool is_good = good == header.size() || fields[good] == "1";
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      RowValue found{is_good ? parse_number(fields[columns[i]]) : std::nullopt, fields.back().starts_with(kDoubtful)};
+      if (found.value && ColumnName(header[columns[i]]).name.starts_with(kPeak)) found.value = std::abs(*found.value);
+      look(std::size_t(*run), i, found);
+    }
+  }
+  if (header.empty()) throw Error(ExitCode::bad_input, "has no line of names", {path});
+  std::vector<std::string> names;
+  for (const std::size_t column : columns) names.push_back(header[column]);
+  return names;
+}
+
+std::string runs_text(const Grid& grid, const Scene& scene) {
+  return std::to_string(grid.size()) + " runs of " + format_quantity(scene.duration, "s") + method_of(grid, scene);
+}
+
+}  // namespace
+
 void require_map_column(const std::vector<std::string>& names, const Grid& grid, const std::vector<std::string>& last, const std::string& wanted) {
-  find_column(names, grid, last, wanted);
+  if (grid.axes().size() == 1)
+    columns_together(names, grid, last, wanted);
+  else
+    find_column(names, grid, last, wanted);
 }
 
 StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& path, const std::vector<std::string>& last, const std::string& wanted) {
@@ -107,48 +202,60 @@ StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& 
   map.nx = int(x.values.size());
   map.ny = int(y.values.size());
   map.cells.assign(grid.size(), {.failed = true});
-  std::istringstream text(read_plain_file(path));
-  std::vector<std::string> header;
-  std::size_t column = 0, good = 0, doubtful = 0;
-  int number = 0;
-  for (std::string line; std::getline(text, line);) {
-    const Place place{path, ++number};
-    if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string> fields = csv_fields(line, place);
-    if (header.empty()) {
-      header = fields;
-      column = find_column(header, grid, last, wanted);
-      good = std::size_t(std::ranges::find(header, kGood) - header.begin());
-      continue;
-    }
-    const std::optional<double> run = parse_number(fields.front());
-    if (fields.size() != header.size() || !run || !(*run >= 0 && *run < double(grid.size()))) throw Error(ExitCode::bad_input, "is no row of this sweep", place);
-    const std::optional<double> value = parse_number(fields[column]);
-    const std::vector<std::size_t> at = grid.places(std::size_t(*run));
-    const bool is_good = good == header.size() || fields[good] == "1";
-    // Of a peak the size: where its sign changes from run to run no cell would be like its neighbours.
-    const double shown = is_good && value && ColumnName(header[column]).name.starts_with(kPeak) ? std::abs(*value) : value.value_or(0);
-    if (!is_good || !value) continue;
-    const bool is_doubtful = fields.back().starts_with(kDoubtful);
-    map.cells[at[1] * x.values.size() + at[0]] = {false, shown, is_doubtful};
-    doubtful += is_doubtful;
-  }
-  if (header.empty()) throw Error(ExitCode::bad_input, "has no line of names", {path});
+  std::size_t doubtful = 0;
+  const auto choose = [&](const std::vector<std::string>& header) { return std::vector<std::size_t>{find_column(header, grid, last, wanted)}; };
+  const std::string column = read_rows(grid, path, choose, [&](std::size_t run, std::size_t, const RowValue& found) {
+    if (!found.value) return;
+    const std::vector<std::size_t> at = grid.places(run);
+    map.cells[at[1] * x.values.size() + at[0]] = {false, *found.value, found.is_doubtful};
+    doubtful += found.is_doubtful;
+  }).front();
   map.title = title_over_runs(scene);
-  map.subtitle = std::to_string(grid.size()) + " runs of " + format_quantity(scene.duration, "s") + method_of(grid, scene);
+  map.subtitle = runs_text(grid, scene);
   map.x = axis_of(x);
   map.y = axis_of(y);
   map.is_linear = true;
-  map.error_title = title_of_column(header[column]);
-  if (std::ranges::count(last, header[column]) > 0) {
+  map.error_title = title_of_column(column);
+  if (std::ranges::count(last, column) > 0) {
     constexpr std::size_t kShort = 12;  // characters: longer ones would take the map's room
-    map.error_title = header[column].size() <= kShort ? header[column] + " at the end" : "at the end";
-    if (header[column].size() > kShort) map.subtitle += "; colour: " + header[column];
+    map.error_title = column.size() <= kShort ? column + " at the end" : "at the end";
+    if (column.size() > kShort) map.subtitle += "; colour: " + column;
   }
   map.hatched = "no value";
   map.footer = "Each cell is a run; the table beside has its numbers" +
                (doubtful == 0 ? "." : doubtful == 1 ? ". One, with a dot, is doubtful: its column `trouble` says why." : ". " + std::to_string(doubtful) + ", with dots, are doubtful: their column `trouble` says why.");
   return map;
+}
+
+ResponseChart sweep_curves(const Grid& grid, const Scene& scene, const std::string& path, const std::vector<std::string>& last, const std::string& wanted) {
+  const Sweep& x = grid.axes().front();
+  ResponseChart chart;
+  std::size_t doubtful = 0, without = 0;
+  const auto choose = [&](const std::vector<std::string>& header) {
+    std::vector<std::size_t> columns = columns_together(header, grid, last, wanted);
+    chart.curves.resize(columns.size());
+    for (ResponseCurve& curve : chart.curves)
+      for (const double value : x.numbers) curve.points.push_back({value * degrees_of(x)});
+    return columns;
+  };
+  const std::vector<std::string> columns = read_rows(grid, path, choose, [&](std::size_t run, std::size_t column, const RowValue& found) {
+    ResponsePoint& point = chart.curves[column].points[run];
+    point.y = found.value;
+    point.is_doubtful = found.is_doubtful;
+    doubtful += column == 0 && found.value && found.is_doubtful;
+    without += column == 0 && !found.value;
+  });
+  chart.title = title_over_runs(scene);
+  chart.subtitle = runs_text(grid, scene);
+  chart.x = curve_axis_of(x);
+  chart.from_zero = ColumnName(columns.front()).name.starts_with(kPeak);
+  const bool is_at_end = std::ranges::count(last, columns.front()) > 0;
+  chart.y_title = is_at_end ? columns.front() + " at the end" : title_of_column(columns.size() == 1 ? columns.front() : stem_column(columns.front()));
+  for (std::size_t i = 0; i < columns.size(); ++i) chart.curves[i].title = "$" + plain_name(columns[i]) + "$";
+  chart.footer = "Each mark is a run; the table beside has its numbers.";
+  if (without > 0) chart.footer += " Those without a value are crosses on the axis.";
+  if (doubtful > 0) chart.footer += " Rings are doubtful: the column `trouble` says why.";
+  return chart;
 }
 
 }  // namespace chainreel

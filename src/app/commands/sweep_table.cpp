@@ -195,7 +195,7 @@ class RowMaker {
 
   std::string row_of(const Scene& scene, const Simulation& simulation, const Trajectory& run, const std::vector<Peak>& peaks) const {
     const bool as_expected =
-        scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status);
+        scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status) && (scene.expect != Outcome::within_limits || run.limits.empty());
     std::string trouble = run.trouble.empty() ? doubt_of(simulation, run) : run.trouble;
     const auto own = std::ranges::find_if(scene.doubts, [&](const std::string& doubt) { return std::ranges::find(known_, doubt) == known_.end(); });
     if (trouble.empty() && own != scene.doubts.end()) trouble = kDoubtful + *own;

@@ -203,7 +203,10 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
                       " at t = " + format_shortest(trajectory.end_time) + " s with " + method_text(scene),
                   scene.place_of("expect"));
   }
-  if (is_complete(trajectory.status)) return;
+  if (is_complete(trajectory.status)) {
+    if (scene.expect != Outcome::within_limits || trajectory.limits.empty()) return;
+    throw Error(ExitCode::limit, to_string(trajectory.limits.front()) + ", and `expect: within_limits` stands there", scene.place_of("expect"));
+  }
   throw Error(ExitCode::numerical,
               trajectory.trouble + " with " + method_text(scene) + remedy_of(trajectory, scene),
               {scene.file});
@@ -211,19 +214,21 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
 
 void Runs::require_expected_ends(std::optional<int> frame) const {
   std::vector<Problem> problems;
+  ExitCode code = ExitCode::numerical;
   for (std::size_t i = 0; i < list_.size(); ++i) {
     const Scene& scene = film_.panels[i].scene;
-    if (frame && *frame < list_[i].size() && scene.expect == Outcome::finish) continue;
+    if (frame && *frame < list_[i].size() && scene.expect != Outcome::diverge) continue;
     try {
       require_expected_end(list_[i], scene);
     } catch (const Error& error) {
-      if (error.code() != ExitCode::numerical) throw;  // a signal
+      if (error.code() != ExitCode::numerical && error.code() != ExitCode::limit) throw;  // a signal
+      if (problems.empty()) code = error.code();
       const Problem& problem = error.problems().front();
       problems.push_back(
           {list_.size() == 1 ? problem.message : in_panel(scene, list_[i], i, problem.message), problem.place});
     }
   }
-  if (!problems.empty()) throw Error(ExitCode::numerical, std::move(problems));
+  if (!problems.empty()) throw Error(code, std::move(problems));
 }
 
 }  // namespace chainreel

@@ -19,7 +19,7 @@ constexpr ExitRow kExits[] = {{ExitCode::good, "good"},
                               {ExitCode::no_renderer, "no renderer or codec"},
                               {ExitCode::numerical, "numerical failure"},
                               {ExitCode::file, "file or disk"},
-                              {ExitCode::limit, "a limit exceeded"}};
+                              {ExitCode::limit, "a limit exceeded: of the program's own, or of a joint where `expect: within_limits` stands"}};
 
 std::string table_of(const char* what, std::span<const Name> names) {
   std::vector<std::vector<std::string>> table{{what, "what it is"}};

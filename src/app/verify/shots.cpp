@@ -239,7 +239,7 @@ class Studio::SceneSource : public Source {
   std::unique_ptr<Film> pages_of(const Runs& runs, const SuitePicture& picture, const Fonts& fonts) {
     film_.scene.video.width = picture.width;
     film_.scene.video.height = picture.height;
-    const bool ends = runs.size() == 1 && film_.scene.expect == Outcome::finish;
+    const bool ends = runs.size() == 1 && film_.scene.expect != Outcome::diverge;
     const int frames = int(runs.times().size());
     return std::make_unique<Film>(runs.pictures(ends ? std::min(frames, runs[0].size()) : frames, fonts));
   }

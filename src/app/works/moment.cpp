@@ -43,7 +43,7 @@ struct Moments::State {
   int frames_drawn(int frame) const {
     runs.require_expected_ends(frame);
     const int all = int(runs.times().size());
-    return runs.size() == 1 && film.scene.expect == Outcome::finish ? std::min(all, runs[0].size()) : all;
+    return runs.size() == 1 && film.scene.expect != Outcome::diverge ? std::min(all, runs[0].size()) : all;
   }
 
   Moment moment(int frame) const {
@@ -61,7 +61,7 @@ struct Moments::State {
     // The picture is of before, and right; a film of the run would fail.
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const Scene& scene = film.panels[i].scene;
-      if (is_complete(runs[i].status) || scene.expect != Outcome::finish) continue;
+      if (is_complete(runs[i].status) || scene.expect == Outcome::diverge) continue;
       const std::string failed = runs[i].trouble + " with " + method_text(scene) + ": what is shown is from before";
       moment.warnings.push_back(film.scene.name + ": " + (runs.size() == 1 ? failed : in_panel(scene, runs[i], i, failed)));
     }

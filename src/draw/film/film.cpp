@@ -92,12 +92,15 @@ Picture Film::static_layer() const {
 void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) const {
   const Panel& panel = panels_[i];
   const int shown = std::clamp(k, 0, panel.last());
+  const bool is_gone = k > shown && panel.motion().may_freeze();
+  // A page without a ground has no veil and no words to say so: what is not there any more is not shown.
+  if (is_gone && is_transparent(stage_->page)) return;
   const std::vector<StandingWord> of_still = is_still ? words_.still(*stage_, layers_, sheet_, view_, panels_, i, shown) : std::vector<StandingWord>{};
   MarkLabels labels(is_still ? std::span<const StandingWord>(of_still) : words_.at(i, shown));
   for (std::size_t l = 0; l < layers_.size(); ++l)
     if (layers_[l]->is_of(panel.motion()))
       layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels});
-  if (k > shown && panel.motion().may_freeze() && stage_->has_cells() && !is_transparent(stage_->page)) draw_veil(picture, i);
+  if (is_gone && stage_->has_cells()) draw_veil(picture, i);
 }
 
 // Over a panel whose run came to an end that it should not have: what stands there is no more what happens.

@@ -38,7 +38,10 @@ class TrailLayer : public Layer {
  private:
   Color color_of(const StagedRun& motion) const {
     if (motion.variant()) return motion.variant()->color;
-    return theme_->curve[std::size_t(std::max(motion.chain().nv, 1) - 1) % theme_->curve.size()];
+    // Of the link that carries it, which a closed loop has among others.
+    const Chain& chain = motion.chain();
+    const int body = chain.end_effector < 0 ? chain.nv : chain.frames[std::size_t(chain.end_effector)].body;
+    return theme_->curve[std::size_t(std::max(body, 1) - 1) % theme_->curve.size()];
   }
 
   const Theme* theme_;

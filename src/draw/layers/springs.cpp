@@ -117,7 +117,12 @@ class SliderSprings : public Layer {
     const Point end = carriage + (look.rails * carriage_length(rail->carrier) / 2) * away;
     const Color color = toned(look.theme->torque, look);
     const Point half = (look.rails * kAnchorWidth / 2) * side;
-    draw_ground(picture, {anchor - half, anchor + half}, away, look, panel.clip());
+    // Hatching stands for the world: what moves with a link has a plate alone.
+    const PageLine plate{anchor - half, anchor + half};
+    if (drawing.chain.bodies[std::size_t(device.body)].parent == 0)
+      draw_ground(picture, plate, away, look, panel.clip());
+    else
+      draw_line(picture, plate, size::kGroundLine, toned(look.theme->base, look), panel.clip());
     const bool both = device.drive.is_spring() && device.drive.damping > 0;
     const double width = std::max(look.rails, kSmallest * panel.marks());
     const Point apart = ((both ? kSideBySide : 0) * width * size::kRailGap) * side;

@@ -18,11 +18,14 @@ std::string vector_words(const Eigen::Vector3d& v) {
 }
 
 // `limit: clamp` and `stop` ask for limits: of a model without any nothing comes of them.
-std::string doubt_of_limit(LimitPolicy policy, const Chain& chain) {
+std::string doubt_of_limit(LimitPolicy policy, Outcome expect, const Chain& chain) {
   const LimitWatch watch(chain);
   if (policy == LimitPolicy::clamp && !watch.have_effort())
     return "limit: clamp cuts nothing, as no joint of the model has a limit of its effort: in a URDF write <limit effort=\"20\"/>, "
            "in `model: {links: ..}` write efforts: 20";
+  if (expect == Outcome::within_limits && watch.are_none())
+    return "expect: within_limits is always fulfilled, as no joint of the model has a limit: in a URDF write <limit lower=.. upper=.. effort=.. velocity=../>, "
+           "in `model: {links: ..}` efforts: 20";
   if (policy == LimitPolicy::stop && watch.are_none())
     return "limit: stop stops nothing, as no joint of the model has a limit: in a URDF write <limit lower=.. upper=.. effort=.. "
            "velocity=../>, or end the run by an event of kind stop";
@@ -101,7 +104,7 @@ std::string doubt_of_gravity(const Chain& chain) {
 std::vector<std::string> doubts_of_scene(const Scene& scene, const Chain& chain) {
   std::vector<std::string> doubts;
   for (const std::string& doubt : doubts_of_pose(chain, scene.start.q, scene.start.written_q)) doubts.push_back("start.q: " + doubt);
-  for (std::string doubt : {doubt_of_gravity(chain), doubt_of_limit(scene.limit, chain)})
+  for (std::string doubt : {doubt_of_gravity(chain), doubt_of_limit(scene.limit, scene.expect, chain)})
     if (!doubt.empty()) doubts.push_back(std::move(doubt));
   for (std::string& doubt : doubts_of_pushes(scene, chain)) doubts.push_back(std::move(doubt));
   for (std::string& doubt : doubts_of_feedback(scene, chain)) doubts.push_back(std::move(doubt));

@@ -47,7 +47,7 @@ bool is_yaml(const fs::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
-// The names of several sources differ: by their stems, else by their paths.
+// The names of several sources differ: by their stems, else by their paths, else by their kinds.
 void name_sources(std::vector<Source>& sources, const std::string& suite) {
   std::map<std::string, int> count;
   for (Source& source : sources) {
@@ -61,6 +61,10 @@ void name_sources(std::vector<Source>& sources, const std::string& suite) {
       source.label =
           fs::path(from.empty() ? fs::path(source.file) : from).replace_extension().generic_string();
     }
+  // A scene and its model, as `init` writes them.
+  const auto is_scene_of = [](const Source& model) { return [&model](const Source& other) { return !other.is_model && other.label == model.label; }; };
+  for (Source& source : sources)
+    if (source.is_model && std::any_of(sources.begin(), sources.end(), is_scene_of(source))) source.label += "_model";
 }
 
 bool has_link(const UrdfFile& file, const std::string& name) {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "draw/chart_samples.hpp"
+#include "draw/charts/response_chart.hpp"
 #include "draw/shapes.hpp"
 #include "render/canvas.hpp"
 #include "support/fonts.hpp"
@@ -309,6 +310,28 @@ TEST(EnergyChart, SaysWhichRunsEndedEarly) {
 }
 
 // --- stability ---
+
+// Marks lie where the axes say, a gap parts a curve, and what has no value is a cross on the axis.
+TEST(ResponseChart, HasAMarkARunAndGapsWhereThereIsNone) {
+  ResponseChart data{"Peaks", "5 runs", {Scale::linear, 0, 4, "payload [kg]"}, "largest $|tau|$ [N m]", true, {}, "Each mark is a run"};
+  data.curves = {{"$tau1$", {{0, 10.0}, {1, 20.0}, {2, {}}, {3, 40.0, true}, {4, 50.0}}}, {"$tau2$", {{0, 5.0}, {1, 5.0}, {2, {}}, {3, 5.0}, {4, 5.0}}}};
+  const Picture picture = response_chart(data, look_of(light_theme()));
+  expect_words_on_page(picture);
+  EXPECT_TRUE(says(picture, "Each mark is a run"));
+  // Of the first curve runs 0, 1 and 4 are discs, and the key of its name is one; a doubtful run is none, nor one without a value.
+  std::vector<Point> places;
+  for (const Ellipse& disc : discs(picture)) places.push_back(disc.center);
+  std::sort(places.begin(), places.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+  ASSERT_EQ(places.size(), 4u);
+  EXPECT_NEAR(places[2].x - places[1].x, 3 * (places[1].x - places[0].x), 1e-9);
+  EXPECT_NEAR(places[2].y - places[1].y, 3 * (places[1].y - places[0].y), 1e-9) << "10, 20 and 50 N m";
+  // Without the gap there is one piece more of the curve.
+  ResponseChart whole = data;
+  whole.curves[0].points[2].y = 30;
+  EXPECT_EQ(discs(response_chart(whole, look_of(light_theme()))).size(), 5u);
+  data.curves.clear();
+  EXPECT_NO_THROW(response_chart(data, look_of(dark_theme()))) << "nothing to show";
+}
 
 TEST(StabilityMap, ColoursCellsByErrorAndHatchesFailures) {
   const StabilityMap data = sample_map(12, 8);
