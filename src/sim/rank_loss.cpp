@@ -21,6 +21,8 @@ constexpr int kMostMinima = 64;            // minima looked at closer
 constexpr int kMostLooksAtPose = 60;    // each narrows an interval to 0.62 of itself
 constexpr int kInstantsAbout = 400;     // of a second run, between three samples
 constexpr double kFar = 2;              // of a change from sample to sample
+constexpr double kFarthestApart = 0.1;  // rad or m, from sample to sample
+constexpr int kMostInstants = 50'000;
 constexpr double kSpared = 0.02;        // of the time until it
 
 class RowStrengths {
@@ -153,25 +155,48 @@ class RowStrengths {
 
 }  // namespace
 
+namespace {
+
+// Where no joint goes far from one to the next, as far as the rates at the samples tell; none where the samples lie so.
+std::vector<double> instants_near_enough(const Simulation& simulation, const Trajectory& trajectory) {
+  double fastest = 0, longest = 0;
+  for (const double rate : trajectory.qd) fastest = std::max(fastest, std::abs(rate));
+  for (int k = 1; k < trajectory.size(); ++k) longest = std::max(longest, trajectory.t[std::size_t(k)] - trajectory.t[std::size_t(k) - 1]);
+  if (!(fastest * longest > kFarthestApart) || !std::isfinite(fastest)) return {};
+  const double end = std::min(trajectory.end_time, simulation.duration);
+  const int count = int(std::min(std::ceil(fastest * end / kFarthestApart), double(kMostInstants)));
+  std::vector<double> times;
+  for (int i = 0; i <= count; ++i) times.push_back(end * i / count);
+  return times;
+}
+
+}  // namespace
+
 std::optional<RankLoss> rank_loss_of(const Simulation& simulation, const Trajectory& trajectory) {
   if (trajectory.rows == 0 || trajectory.size() < 2) return {};
-  std::vector<double> times = RowStrengths(simulation, trajectory).instants_about_minima();
+  const std::vector<double> near = instants_near_enough(simulation, trajectory);
+  const auto seen_at = [&](std::vector<double> times) {
+    times.insert(times.end(), trajectory.t.begin(), trajectory.t.end());
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return simulate(simulation, times);
+  };
+  const Trajectory denser = near.empty() ? Trajectory{} : seen_at(near);
+  std::vector<double> times = RowStrengths(simulation, near.empty() ? trajectory : denser).instants_about_minima();
   if (times.empty()) return {};
   // A cubic through samples is none of a motion that turned another way between them: that is seen in the run itself.
-  times.insert(times.end(), trajectory.t.begin(), trajectory.t.end());
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return RowStrengths(simulation, simulate(simulation, times)).first_loss();
+  return RowStrengths(simulation, seen_at(std::move(times))).first_loss();
 }
 
 std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajectory& trajectory) {
   const std::optional<RankLoss> loss = rank_loss_of(simulation, trajectory);
   if (!loss) return {};
-  const double end = std::floor(loss->t * (1 - kSpared) * 1e3) * 1e-3;
+  const double before = loss->t * (1 - kSpared), digit = before > 0 ? std::pow(10, std::floor(std::log10(before)) - 2) : 1;
+  const double end = std::floor(before / digit) * digit;  // three digits
   return Doubt{"rank", loss->part,
                "at t = " + format_significant(loss->t, 4) + " s constraints that are independent elsewhere depend on each other, as of links in one line: which way "
                "the motion goes on there, and lambda, the equations do not say",
-               end > 0 ? "--set duration=" + format_shortest(end) + ", which ends before it" : "a start away from it"};
+               end > 0 ? "--set duration=" + format_significant(end, 3) + ", which ends before it" : "a start away from it"};
 }
 
 }  // namespace chainreel

@@ -50,6 +50,14 @@ TEST(FallCommand, SaysThatHeStandsOnlyWhileThePressureIsWithinTheFoot) {
       EXPECT_EQ(row["falls"], down ? Json("forwards") : Json(nullptr));
     }
     standing += !left && !down, held += left && !down;
+    if (!left || down) continue;
+    // A film of that run does not say that he does not fall: a real one has tipped.
+    const TemporaryFolder folder;
+    const ProgramResult still = run_program({"snapshot", kHuman, "--set", "title=He falls in {fall}", "--set", "parameters.k=" + row["value"].dump(), "--at", "3", "--json", "-o",
+                                             folder.file("h.png"), "--quiet"});
+    ASSERT_EQ(still.status, 0) << still.err;
+    EXPECT_THAT(still.out, HasSubstr("He tips at ")) << row.dump();
+    EXPECT_THAT(still.out, HasSubstr(" s, not down within 5 s"));
   }
   EXPECT_GT(standing, 0);
   EXPECT_GT(held, 0);

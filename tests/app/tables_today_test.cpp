@@ -84,6 +84,32 @@ TEST(PicturesOfToday, WithOtherPixelsAreNotAsTheyWereWritten) {
   }
 }
 
+// Half a film is none, and is told; and no told command replaces what somebody wrote into an output.
+TEST(FilesOfToday, ThatAreBrokenAreToldAndThoseThatWereEditedAreKept) {
+  const TemporaryFolder folder;
+  folder.write("s.yaml", "model: " + kRoot + "/models/rr.urdf\nduration: 0.3\nmethod: rk4\nvideo: {width: 160, height: 90, fps: 10}\n");
+  const RunOptions there{.folder = folder.path().string()};
+  const auto run = [&](const Words& words) { return run_program(words, there); };
+  ASSERT_EQ(run({"render", "s.yaml", "-o", "t/f.mp4", "-o", "t/f.gif", "-o", "t/f.svg", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"simulate", "s.yaml", "-o", "t/a.csv", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"check", "t", "--today"}).status, 0);
+  for (const char* name : {"t/f.mp4", "t/f.gif", "t/f.svg"}) {
+    const std::string whole = read_whole_file(folder.file(name));
+    for (const std::string& broken : {whole.substr(0, whole.size() / 3), std::string(), std::string("words")}) {
+      folder.write(name, broken);
+      const ProgramResult told = run({"check", "t", "--today"});
+      EXPECT_EQ(told.status, 1) << name << told.out << told.err;
+      EXPECT_THAT(told.out, HasSubstr(std::string(name) + " is NOT what")) << name;
+    }
+    folder.write(name, whole);
+  }
+  folder.write("t/a.csv", "my data\n");
+  const ProgramResult commands = run({"check", "t", "--today", "--commands"});
+  EXPECT_THAT(commands.out, HasSubstr("# it would replace t/a.csv, which this program did not write so: chainreel simulate"));
+  run_told(commands.out, folder.path().string());
+  EXPECT_EQ(read_whole_file(folder.file("t/a.csv")), "my data\n");
+}
+
 // A picture at the very end is like a frame of the film, which needs more libraries.
 TEST(PicturesOfToday, OfTheEndAreOfThisVersion) {
   const TemporaryFolder folder;

@@ -382,6 +382,12 @@ TEST_F(Suites, AFolderIsTheScenesAndModelsInIt) {
   EXPECT_THAT(suite.pictures[0].q, ElementsAre(0, -1.75, 0));
   EXPECT_TRUE(suite.pictures[1].telling);
   EXPECT_EQ(suite.name, folder_.path().filename().string());
+  // A scene and its model of one name, as `init` writes them.
+  folder_.write("pair/one.urdf", read_whole_file(folder_.file("arm.urdf")));
+  folder_.write("pair/one.yaml", "model: one.urdf\nduration: 1\nmethod: rk4\n");
+  EXPECT_THAT(names(read_suite(folder_.file("pair"))), testing::UnorderedElementsAre("one", "one_model"));
+  folder_.write("pair/ci.yaml", "scene: one.yaml\nmodel: one.urdf\n");
+  EXPECT_THAT(names(read_suite(folder_.file("pair/ci.yaml"))), testing::UnorderedElementsAre("one", "one_model"));
   // What says what is to be shown is listened to.
   read("model: arm.urdf\nposes: {home: {}}\n");
   EXPECT_THAT(names(read_suite(folder_.path().string() + "/")), ElementsAre("home"));

@@ -182,6 +182,28 @@ TEST(Doubts, FindAPoseWhereTheWayOnIsOpen) {
   EXPECT_THAT(kinds(loop("dop853", 0, 0.7 + 1e-5, 2)), ::testing::Not(::testing::Contains("rank"))) << "it turns round 5 mrad before";
 }
 
+// However far apart its samples are, and however often it is there: the first instant is told.
+TEST(Doubts, FindTheFirstSuchPoseBetweenFewSamples) {
+  const auto rank_of = [](const Simulation& run, double dt) -> std::string {
+    for (const Doubt& doubt : doubts(run, dt))
+      if (doubt.kind == "rank") return doubt.words.substr(0, doubt.words.find(" s ")) + "; " + doubt.remedy.substr(0, doubt.remedy.find(','));
+    return "";
+  };
+  for (const double dt : {1.0, 0.5, 1.0 / 3, 0.25, 0.2, 0.1}) EXPECT_THAT(rank_of(loop("rk4", 1e-3, 0.7, 2), dt), HasSubstr("at t = 0.55")) << dt;
+  // Fifteen and thirty times as fast.
+  for (const double times : {15.0, 30.0}) {
+    Simulation fast = loop("rk4", 1e-4, 0.7, 0.5);
+    for (double& rate : fast.qd0) rate *= times;
+    const std::string said = rank_of(fast, 1.0 / 60);
+    EXPECT_THAT(said, HasSubstr(times == 15 ? "at t = 0.0369" : "at t = 0.0184")) << said;
+    EXPECT_THAT(said, HasSubstr(times == 15 ? "duration=0.036" : "duration=0.018")) << said;
+    fast.duration = times == 15 ? 0.036 : 0.018;
+    EXPECT_EQ(rank_of(fast, 1.0 / 60), "") << "as told";
+    fast.duration = 0.0201;
+    EXPECT_EQ(rank_of(fast, 1.0 / 60).empty(), times == 15) << "two samples";
+  }
+}
+
 // A chain that its constraints hold altogether is at rest, and nothing speaks against that.
 TEST(Doubts, AreNoneOfAChainWithoutFreedom) {
   Simulation run = run_of("rr", {}, 1, "rk4", 0.01);

@@ -156,7 +156,8 @@ AskedFilms asked_films(const std::vector<std::string>& paths) {
       const OutputFormat* format = find_output_format(file);
       if (!entry->is_regular_file(code) || !(is_table(file) || (format != nullptr && format->read_tags != nullptr))) continue;
       const std::optional<ClipMemory> memory = memory_in(file);
-      AskedFilm film = is_table(file) || (memory && tells_what_it_shows(*memory)) ? asked(file, memory) : AskedFilm{file};
+      // What remembers nothing may be the half of a film that its audit tells of.
+      AskedFilm film = is_table(file) || !memory || tells_what_it_shows(*memory) ? asked(file, memory) : AskedFilm{file};
       if (film.audit.json.is_object() || !film.scene.empty())
         all.list.push_back(std::move(film));
       else

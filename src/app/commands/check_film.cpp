@@ -34,7 +34,6 @@
 #include "core/format.hpp"
 #include "core/input_file.hpp"
 #include "draw/page/house_style.hpp"
-#include "encode/png.hpp"
 #include "model/model_source.hpp"
 #include "model/read_chain.hpp"
 
@@ -266,14 +265,6 @@ Today recorded_of_today(const AskedFilm& asked, const std::string& scene, const 
   return found;
 }
 
-// A picture tells of its own pixels: no audit lies beside a still.
-bool has_other_pixels(const std::string& path) {
-  if (lower_case_ending(path) != ".png") return false;
-  const auto text = read_png_text(path);
-  const auto written = text.find(kPixels);
-  return written != text.end() && written->second != pixels_checksum(read_png(path));
-}
-
 constexpr const char* kOtherPixels = "the file is not as it was written: its pixels are others";
 
 // A figure depends on what its files say, and on poses that have names beside its model.
@@ -308,7 +299,17 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   if (audit.json.is_object() && audit.json.contains(kMadeBy)) return recorded_of_today(asked, scene, common);
   if (asked.is_gone) return gone_of_today(asked, scene, common);
   if (is_table(path)) return table_of_today(asked, scene, common);
-  const ClipMemory remembered = recall(path);
+  const std::string is_other = "the file is not as it was written: `chainreel check " + path + "`";
+  ClipMemory remembered;
+  try {
+    remembered = recall(path);
+  } catch (const Error&) {
+    if (!audit.is_changed) throw;
+    Today broken = gone_of_today(asked, scene, common);
+    broken.is_gone = false;
+    broken.words = {is_other};
+    return broken;
+  }
   if (!remembered.figure.is_null()) return figure_of_today(path, remembered);
   require_no_own_torque(path, remembered.audit);
   PreparedFilm film = film_behind(asked, scene, common);
@@ -316,7 +317,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   for (const ClipMemory& memory : memories_today(film, path, remembered)) found.push_back(difference_of(path, audit.json, remembered, memory, film));
   const auto count = [](const Today& one) { return one.words.size() + one.facts.size(); };
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
-  if (audit.is_changed) nearest.words.insert(nearest.words.begin(), "the file is not as it was written: `chainreel check " + path + "`");
+  if (audit.is_changed) nearest.words.insert(nearest.words.begin(), is_other);
   if (!audit.is_changed && has_other_pixels(path)) nearest.words.insert(nearest.words.begin(), kOtherPixels);
   for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
   nearest.again = remaking_of(asked, film, remembered.audit, common);

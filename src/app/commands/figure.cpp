@@ -129,11 +129,12 @@ FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual,
     const OutputFile beside_it(table, overwrite);
     beside_.push_back(table);
   }
-  if (!measures(options.command->words())) records_.open(paths_, paths_);
+  if (!measures(options.command->words()) && !options.is_one_of_several) records_.open(paths_, paths_);
 }
 
 ClipMemory memory_of_chart(const FigureOptions& options) {
   ClipMemory memory = memory_of_figure(*options.command, "");
+  if (options.is_one_of_several) memory.figure.erase(kInputs);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
   return memory;
 }

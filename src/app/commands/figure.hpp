@@ -21,6 +21,7 @@
 namespace chainreel {
 
 struct FigureOptions {
+  bool is_one_of_several = false;  // that the command makes: by itself it is not to be made again, and remembers not what its files said
   std::vector<std::string> outputs;
   int width = 0, height = 0;  // 0: 1920 x 1080
   PaperOptions paper;

@@ -10,7 +10,9 @@
 #include "app/film/formats.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/works/moment.hpp"
+#include "core/error.hpp"
 #include "core/format.hpp"
+#include "encode/png.hpp"
 
 namespace chainreel {
 namespace {
@@ -91,6 +93,28 @@ std::vector<std::string> outputs_of(const std::vector<std::string>& command) {
 
 }  // namespace
 
+bool has_other_pixels(const std::string& path) {
+  if (lower_case_ending(path) != ".png") return false;
+  const auto text = read_png_text(path);
+  const auto written = text.find(kPixels);
+  return written != text.end() && written->second != pixels_checksum(read_png(path));
+}
+
+namespace {
+
+// By somebody else since it was written.
+bool was_changed(const std::string& path) {
+  std::error_code code;
+  if (!fs::is_regular_file(path, code)) return false;
+  try {
+    return is_changed_since(path) || has_other_pixels(path);
+  } catch (const Error&) {
+    return true;  // it cannot be read as what it was
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> foreign_beside(const std::vector<std::string>& command) {
   const std::vector<std::string> outputs = outputs_of(command);
   const std::string verb = command.size() > 1 ? command[1] : "";
@@ -102,6 +126,7 @@ std::vector<std::string> foreign_beside(const std::vector<std::string>& command)
     if (is_new && fs::exists(fs::symlink_status(path, code)) && !is_own_sidecar(path) && !has_record) foreign.push_back(path);
   };
   for (const std::string& output : outputs) {
+    if (was_changed(output)) foreign.push_back(output);
     const auto named = [&](const char* ending) { return fs::path(output).replace_extension(ending).string(); };
     if (verb == "render")
       for (const char* ending : {".json", ".txt", ".srt"}) look(named(ending));

@@ -358,6 +358,7 @@ StabilityOptions map_by(const StabilityOptions& options, const Method& method, b
   StabilityOptions one = options;
   one.methods.clear();
   one.common.set.push_back("method=" + method.name);
+  one.figure.is_one_of_several = is_one_of_several;
   if (!is_one_of_several) return one;
   if (one.figure.outputs.empty()) one.figure.outputs = {usual_map(options)};
   for (std::string& output : one.figure.outputs) {

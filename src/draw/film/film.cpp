@@ -111,7 +111,8 @@ void Film::draw_veil(Picture& picture, std::size_t i) const {
 }
 
 Picture Film::frame(int k) const {
-  return drawn(k, false);
+  // A last frame that is held is looked at as long as a still: words that come with it stand there.
+  return drawn(k, k == frame_count() - 1 && stage_->page.hold.last > 0);
 }
 
 Picture Film::still(int k) const {

@@ -47,6 +47,8 @@ bool is_yaml(const fs::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
+constexpr const char* kOfModel = "_model";  // behind the name of a model's picture, where its scene has that name
+
 // The names of several sources differ: by their stems, else by their paths, else by their kinds.
 void name_sources(std::vector<Source>& sources, const std::string& suite) {
   std::map<std::string, int> count;
@@ -64,7 +66,7 @@ void name_sources(std::vector<Source>& sources, const std::string& suite) {
   // A scene and its model, as `init` writes them.
   const auto is_scene_of = [](const Source& model) { return [&model](const Source& other) { return !other.is_model && other.label == model.label; }; };
   for (Source& source : sources)
-    if (source.is_model && std::any_of(sources.begin(), sources.end(), is_scene_of(source))) source.label += "_model";
+    if (source.is_model && std::any_of(sources.begin(), sources.end(), is_scene_of(source))) source.label += kOfModel;
 }
 
 bool has_link(const UrdfFile& file, const std::string& name) {
@@ -358,7 +360,9 @@ Suite suite_of_folder(const std::string& path) {
   PictureNames names;
   for (const fs::path& file : files) try {
       SuitePicture picture;
-      picture.name = file_name_of(file.stem().string());
+      const auto is_its_scene = [&file](const fs::path& other) { return is_yaml(other) && other.stem() == file.stem(); };
+      const bool has_scene = !is_yaml(file) && std::any_of(files.begin(), files.end(), is_its_scene);
+      picture.name = file_name_of(file.stem().string() + (has_scene ? kOfModel : ""));
       picture.source = file.lexically_normal().string();
       picture.is_model = !is_yaml(file);
       picture.telling = !picture.is_model;

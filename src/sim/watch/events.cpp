@@ -158,6 +158,8 @@ constexpr double kReach = 4;            // of the changes from look to look: wha
 constexpr double kInside = 1e-3;        // of a part, where its slopes are taken
 constexpr int kMostLooksAtVisit = 48;   // each narrows the part to 0.62 of itself
 constexpr int kHastyTurns = 3;
+constexpr double kStray = 0.3;          // of all that was seen of a value: a quarter is the most that a smooth one strays by where it turns round
+constexpr double kNoRange = 1e-12;
 constexpr double kTurning = 1e-6;       // of a value: its change, above rounding
 
 int sign_of(double x) {
@@ -189,6 +191,7 @@ EventWatch::EventWatch(const EventSet& events, ChainSystem& system, double durat
       ws_(system.chain()),
       probe_(events.probe),
       before_(events.list.size()),
+      courses_(events.list.size()),
       now_(events.list.size()),
       q_(std::size_t(system.nq())),
       qd_(std::size_t(system.nv())),
@@ -226,6 +229,7 @@ bool EventWatch::start(double t, ConstVec q, ConstVec qd, EventHits& hits) {
   for (std::size_t i = 0; i < now_.size(); ++i) {
     const Event::Test test = events_.list[i].test;
     before_[i] = {now_[i], holds(test, now_[i]), sign_of(now_[i])};
+    courses_[i] = {now_[i], now_[i]};
     if (before_[i].holds && test != Event::Test::changes_side) hits.from_start.push_back(int(i));
   }
   return true;
@@ -312,9 +316,28 @@ void EventWatch::look_for_haste(std::size_t i, double t, EventHits& hits) {
   const bool turns = change * before.change < 0 && std::fabs(change) > kTurning * size && std::fabs(before.change) > kTurning * size &&
                      std::min(std::fabs(now_[i]), std::fabs(before.value)) < std::fabs(change);
   before.turns = turns ? before.turns + 1 : 0;
-  if (before.turns != kHastyTurns) return;
+  if (before.turns == kHastyTurns) call_hasty(i, t, hits);
+}
+
+void EventWatch::call_hasty(std::size_t i, double t, EventHits& hits) {
   const auto known = [&](const EventHits::Hasty& one) { return one.event == int(i); };
   if (std::none_of(hits.hasty.begin(), hits.hasty.end(), known)) hits.hasty.push_back({int(i), t});
+}
+
+void EventWatch::probe_between(Integrator& integrator, double a, double b, EventHits& hits) {
+  constexpr double kTurn = 0.6180339887498949;  // of a part: no two probes lie alike
+  const double share = std::fmod(double(++probes_) * kTurn, 1.0), t = a + share * (b - a);
+  integrator.interpolate(t, q_, qd_);
+  set_probe(t, q_, qd_);
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const double value = events_.list[i].value.evaluate(probe_.values());
+    Course& course = courses_[i];
+    if (!std::isfinite(value) || !std::isfinite(now_[i]) || !std::isfinite(before_[i].value)) continue;
+    for (const double one : {now_[i], value}) course.low = std::min(course.low, one), course.high = std::max(course.high, one);
+    const double range = course.high - course.low, off = std::fabs(value - before_[i].value - share * (now_[i] - before_[i].value));
+    const bool strays = off > kStray * range && range > kTurning * std::max(std::fabs(course.low), std::fabs(course.high)) && range > kNoRange;
+    if (strays && ++course.strays == kHastyTurns) call_hasty(i, t, hits);
+  }
 }
 
 bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
@@ -333,6 +356,7 @@ bool EventWatch::check_step(Integrator& integrator, EventHits& hits) {
       look_within(integrator, i, instant(look - 1), t);
       look_for_haste(i, t, hits);
     }
+    if (look % kLooksPerStep == 0) probe_between(integrator, instant(look - 1), t, hits);
     std::sort(pending_.begin(), pending_.end(),
               [](const Pending& x, const Pending& y) { return x.t != y.t ? x.t < y.t : x.event < y.event; });
     for (const Pending& hit : pending_) {

@@ -8,7 +8,7 @@
 //
 // Each step is looked at in kLooksPerStep equal parts, a long one in more: none is longer than such a part of a step of 1/256 of the run. An event is found where the expression differs between
 // the ends of a part, and where it comes nearer to zero within one and turns round behind it: the slopes at the ends say so. One that
-// turns round at several looks in a row is faster than they are: see EventHits::hasty. Jumps are located like crossings;
+// turns round at several looks in a row, or is elsewhere between them at odd instants, is faster than they are: see EventHits::hasty. Jumps are located like crossings;
 // poles, where an expression changes its sign and is never zero, are none. The instant is exact to kInstantTolerance on the dense output, whose own error is the
 // method's: see Method::dense_order.
 #pragma once
@@ -158,6 +158,11 @@ class EventWatch {
     double change = 0;   // of the value since the look before
     int turns = 0;       // at how many looks in a row it has turned round
   };
+  // What was seen of a value, to judge by where it is between looks.
+  struct Course {
+    double low = 0, high = 0;
+    int strays = 0;  // how often it was far from the line between two looks
+  };
   struct Pending {
     int event;
     double t;
@@ -173,6 +178,9 @@ class EventWatch {
   // Of one that comes and goes again within it.
   void look_for_a_visit(Integrator& integrator, std::size_t event, double a, double b);
   void look_for_haste(std::size_t event, double t, EventHits& hits);
+  void call_hasty(std::size_t event, double t, EventHits& hits);
+  // At an odd instant of that part, which no period of an event is a multiple of; after `read` at its end.
+  void probe_between(Integrator& integrator, double a, double b, EventHits& hits);
   static bool happens(const Event& event, const State& before, double value);
   void record(Integrator& integrator, const Pending& hit, EventHits& hits);
 
@@ -182,6 +190,8 @@ class EventWatch {
   Workspace ws_;
   Probe probe_;
   std::vector<State> before_;
+  std::vector<Course> courses_;
+  long probes_ = 0;
   std::vector<double> now_;
   std::vector<Pending> pending_;
   std::vector<double> q_, qd_, qdd_;
