@@ -164,34 +164,42 @@ bool PointSolver::improve(std::vector<double>& q, const Eigen::Vector2d& point) 
   return error.norm() <= kReached;
 }
 
-// The first joint turns, and does not change how far the end effector is from it: the least common bend at which that is right.
+// The first joint changes neither how far the end effector is from it, where it turns, nor how far it is across its way, where it slides: the least common bend
+// at which that is right.
 std::optional<std::vector<double>> PointSolver::bent_alike(const Eigen::Vector2d& point) {
-  const Eigen::Vector2d base = in_plane(middle_), d = point - base;
+  const bool turns = !slides(chain_.bodies[1]);
   std::vector<double> q(std::size_t(chain_.nq), 0.0);
-  const auto too_far = [&](double s) {
+  const Eigen::Vector2d base = in_plane(middle_), d = point - base;
+  tip(q);
+  const Eigen::Vector2d way = in_plane(ws_.X_WB[1].linear() * chain_.bodies[1].joint.axis), across(-way.y(), way.x());
+  const auto off = [&](double s) {
     bend_alike(q, s);
-    return (tip(q) - base).norm() - d.norm();
+    const Eigen::Vector2d end = tip(q);
+    return turns ? (end - base).norm() - d.norm() : across.dot(end - point);
   };
-  const auto turned_there = [&]() -> std::optional<std::vector<double>> {
+  const auto moved_there = [&]() -> std::optional<std::vector<double>> {
     std::vector<double> there = q;
-    const Eigen::Vector2d seen = tip(q) - base;
-    if (d.norm() > kReached) there[0] += joint_sign(1) * (std::atan2(d.y(), d.x()) - std::atan2(seen.y(), seen.x()));
+    const Eigen::Vector2d end = tip(q), seen = end - base;
+    if (!turns)
+      there[0] += way.dot(point - end);
+    else if (d.norm() > kReached)
+      there[0] += joint_sign(1) * (std::atan2(d.y(), d.x()) - std::atan2(seen.y(), seen.x()));
     if (accept(there, point)) return there;
     return std::nullopt;
   };
-  double last = 0, at_last = too_far(0);
+  double last = 0, at_last = off(0);
   if (std::abs(at_last) <= kReached / 10)
-    if (auto found = turned_there()) return found;
+    if (auto found = moved_there()) return found;
   for (int k = 1; k <= kBends; ++k) {
-    const double next = double(k) / kBends, at_next = too_far(next);
+    const double next = double(k) / kBends, at_next = off(next);
     if ((at_last > 0) != (at_next > 0)) {
       double low = last, high = next;
       for (int i = 0; i < kHalvings; ++i) {
         const double middle = (low + high) / 2;
-        ((too_far(middle) > 0) == (at_last > 0) ? low : high) = middle;
+        ((off(middle) > 0) == (at_last > 0) ? low : high) = middle;
       }
-      too_far(high);
-      if (auto found = turned_there()) return found;
+      off(high);
+      if (auto found = moved_there()) return found;
     }
     last = next, at_last = at_next;
   }
@@ -203,8 +211,7 @@ std::optional<std::vector<double>> PointSolver::pose_at(const Eigen::Vector3d& w
   if (d.norm() > reach_) return std::nullopt;
   const bool turns = !slides(chain_.bodies[1]);
   if (chain_.nv == 2 && turns && !slides(chain_.bodies[2])) return closed_form(point);
-  if (turns)
-    if (auto alike = bent_alike(point)) return alike;
+  if (chain_.nv == 3) return bent_alike(point);
 
   // A first joint that turns brings each start into the direction of the point.
   std::vector<std::pair<double, const Start*>> order;

@@ -16,8 +16,8 @@ enum class Elbow { up, down };
 inline constexpr double kReached = 1e-10;
 
 // For planar chains of two or three one-freedom joints, whose prismatic ones have limits. Two revolute joints are solved
-// in closed form (K. Lynch, F. Park, Modern Robotics, ch. 6.1); of three whose first one turns the joints behind it bend alike,
-// as little as need be, where that leads there; all others are found by damped least squares from several starts (ch. 6.2) that are bent so.
+// in closed form (K. Lynch, F. Park, Modern Robotics, ch. 6.1); of three the joints behind the first one bend alike,
+// as little as need be, and points that such poses do not reach have none; two of which one slides are found by damped least squares from several starts (ch. 6.2).
 class PointSolver {
  public:
   // Throws Error (usage) for any other chain.

@@ -246,6 +246,17 @@ TEST(Doubts, DegreesOfAFollowedTableAreTold) {
   EXPECT_THAT(run_program({"simulate", meant, "-o", folder.file("a.csv"), "--force", "--quiet"}).err, Not(HasSubstr("which is in radians"))) << "negative control";
 }
 
+TEST(Doubts, DegreesOfATargetAreTold) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& q) {
+    const std::string scene = folder.write("a.yaml", short_scene("torque: {pd: {kp: 10, kd: 1, q: " + q + "}}\n"));
+    return run_program({"simulate", scene, "-o", folder.file("a.csv"), "--force", "--quiet"}).err;
+  };
+  EXPECT_THAT(said("[90, 0]"), HasSubstr("torque.pd.q: 90 of joint1 is in radians, 14.3 turns: for degrees write 90deg"));
+  EXPECT_THAT(said("[90deg, 0]"), Not(HasSubstr("radians"))) << "negative control";
+  EXPECT_THAT(said("[\"3 * t\", 1.5]"), Not(HasSubstr("radians")));
+}
+
 // What speaks against one run of a sweep stands in its row.
 TEST(Doubts, OfOneRunOfASweepStandInItsRow) {
   const TemporaryFolder folder;

@@ -9,7 +9,9 @@
 
 #include "core/error.hpp"
 #include "dynamics/kinematics.hpp"
+#include "model/link_chain.hpp"
 #include "model/read_chain.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace chainreel {
 namespace {
@@ -70,6 +72,32 @@ TEST(InverseKinematics, OfRrrBendsAlikeAsLittleAsNeedBe) {
       EXPECT_NEAR((*q)[1], bend, r > 2.98 ? 1e-7 : 1e-12) << r;
       EXPECT_EQ((*q)[1], (*q)[2]) << r;
     }
+}
+
+// A slider first: what it cannot give the two bends do.
+TEST(InverseKinematics, OfASliderFirstBendsAlikeToo) {
+  const TemporaryFolder folder;
+  LinkChain links;
+  links.links = {0.3, 0.4, 0.5};
+  links.joints = "PRR";
+  EXPECT_TRUE(complete(links).empty());
+  Chain chain = read_chain(folder.write("prr.urdf", urdf_of(links, "prr")));
+  chain.bodies[1].joint.limit.lower = -0.2;
+  chain.bodies[1].joint.limit.upper = 0.5;
+  const std::vector<double> straight{0.1, 0, 0};
+  EXPECT_NEAR((tip_of(chain, *PointSolver(chain, Elbow::up).pose_at(tip_of(chain, straight))) - tip_of(chain, straight)).norm(), 0, 1e-9);
+  int found = 0;
+  for (const Elbow elbow : {Elbow::up, Elbow::down})
+    for (double x = -0.4; x < 1.5; x += 0.1)
+      for (double y = -0.85; y < 0.9; y += 0.1) {
+        const auto q = PointSolver(chain, elbow).pose_at({x, y, 0});
+        if (!q) continue;
+        ++found;
+        EXPECT_LT((tip_of(chain, *q) - Eigen::Vector3d(x, y, 0)).norm(), 1e-9);
+        EXPECT_EQ((*q)[1], (*q)[2]) << x << " " << y;
+        EXPECT_TRUE(elbow == Elbow::up ? (*q)[1] <= 0 : (*q)[1] >= 0);
+      }
+  EXPECT_GT(found, 50);
 }
 
 // Negative controls.

@@ -382,7 +382,7 @@ void run_sweep(SweepOptions options) {
                    std::size_t(runs.behind - runs.first));
     if (outcome.doubtful > 0 && written.size() == 1)
       tell_warnings({path + ": " + std::to_string(outcome.doubtful) + (outcome.doubtful == 1 ? " row is" : " rows are") +
-                     " doubtful: its column `trouble` says by how much the energy is off"});
+                     " doubtful: its column `trouble` says why"});
   };
   // Tables first: they depend on the files that were read up to there, which must be the same for all shares.
   if (std::vector<std::string> tables = tables_of(options.outputs); !tables.empty()) {

@@ -5,8 +5,10 @@
 
 #include "core/format.hpp"
 #include "scene/annotation.hpp"
+#include "scene/quantity.hpp"
 #include "scene/run/pose_doubts.hpp"
 #include "sim/drive/limits.hpp"
+#include "sim/drive/table_units.hpp"
 
 namespace chainreel {
 namespace {
@@ -76,6 +78,18 @@ std::vector<std::string> doubts_of_feedback(const Scene& scene, const Chain& cha
     if (are_zero(kp) && are_zero(kd)) doubts.push_back("torque." + name + ": kp and kd are zero, so that nothing comes of it");
     if (has_negative(kp) || has_negative(kd)) doubts.push_back("torque." + name + ": a negative gain drives away from what is to be followed");
   };
+  // A target is an angle like those of the start.
+  const auto look_at_targets = [&](const std::string& name, const std::optional<Feedback>& feedback) {
+    if (!feedback) return;
+    for (std::size_t i = 0; i < std::min(feedback->q.size(), chain.coordinate_names.size()); ++i) {
+      const std::string& written = feedback->q[i].text;
+      const std::optional<double> value = parse_number(written);
+      const std::string doubt = value && freedom_turns(chain, i) ? doubt_of_angle(written, *value, " of " + chain.coordinate_names[i]) : "";
+      if (!doubt.empty()) doubts.push_back("torque." + name + ".q: " + doubt);
+    }
+  };
+  look_at_targets("pd", scene.control->pd);
+  look_at_targets("computed_torque", scene.control->computed_torque);
   if (scene.control->pd) look_at_gains("pd", scene.control->pd->kp, scene.control->pd->kd);
   if (!scene.control->task) return doubts;
   const TaskFeedback& task = *scene.control->task;
