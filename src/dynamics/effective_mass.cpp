@@ -69,7 +69,7 @@ void find_directions(EffectiveMass& effective, double scale, const std::function
   effective.mobility = eigen.values.cwiseMax(0.0);  // round-off may leave a zero below zero
   effective.directions = std::move(eigen.vectors);
   const double largest = scale > 0 ? scale : effective.mobility.maxCoeff();
-  const double least = scale > 0 ? kForbiddenFraction * scale : kSingularFraction * effective.mobility.maxCoeff();
+  const double least = effective.least = scale > 0 ? kForbiddenFraction * scale : kSingularFraction * effective.mobility.maxCoeff();
   for (Eigen::Index k = 0; k < effective.mobility.size(); ++k) {
     const double mobility = effective.mobility(k);
     const bool is_small = !(mobility > least);

@@ -26,6 +26,7 @@ struct EffectiveMass {
   std::optional<Eigen::MatrixXd> Lambda;  // kg; absent at singular poses
   Eigen::VectorXd mobility;               // eigenvalues of Lambda_inv, rising: 1/kg; never negative
   Eigen::MatrixXd directions;             // their unit eigenvectors, columns, in the basis
+  double least = 0;                       // 1/kg: mobilities below it count as none, where nothing moves along them
   std::vector<bool> is_infinite;          // one a direction: its mass is
   std::vector<Eigen::VectorXd> singular_directions;  // unit vectors of infinite mass, in the basis
 };

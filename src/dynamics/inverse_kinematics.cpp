@@ -56,7 +56,7 @@ PointSolver::PointSolver(const Chain& chain, Elbow elbow)
   ex_ = chain.planar->plane.ex;
   ey_ = chain.planar->plane.ey;
   find_reach();
-  make_starts();
+  if (chain.nv == 2) make_starts();
 }
 
 Eigen::Vector2d PointSolver::tip(const std::vector<double>& q) {
@@ -187,6 +187,19 @@ std::optional<std::vector<double>> PointSolver::bent_alike(const Eigen::Vector2d
     if (accept(there, point)) return there;
     return std::nullopt;
   };
+  // There the distance touches zero in place of passing it.
+  if (turns && d.norm() <= kReached) {
+    double best = 0;
+    for (int k = 1; k <= kBends; ++k)
+      if (off(double(k) / kBends) < off(best)) best = double(k) / kBends;
+    double low = std::max(best - 1.0 / kBends, 0.0), high = std::min(best + 1.0 / kBends, 1.0);
+    for (int i = 0; i < 2 * kHalvings; ++i) {
+      const double left = low + (high - low) / 3, right = high - (high - low) / 3;
+      (off(left) < off(right) ? high : low) = off(left) < off(right) ? right : left;
+    }
+    off((low + high) / 2);
+    return moved_there();
+  }
   double last = 0, at_last = off(0);
   if (std::abs(at_last) <= kReached / 10)
     if (auto found = moved_there()) return found;

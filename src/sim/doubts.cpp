@@ -154,8 +154,9 @@ class StepsAgain {
   Apart worst_;
 };
 
-// Looks lie a part of a step apart. What turns round at three of them in a row has a period of about two, or less.
-std::optional<Doubt> doubt_events(const Simulation& simulation, const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by) {
+}  // namespace
+
+std::optional<Doubt> doubt_of_events(const Simulation& simulation, const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by) {
   if (trajectory.events.hasty.empty()) return {};
   const EventHits::Hasty& first = trajectory.events.hasty.front();
   const double mean = trajectory.end_time / double(std::max(trajectory.steps, 1L));
@@ -165,6 +166,8 @@ std::optional<Doubt> doubt_events(const Simulation& simulation, const Trajectory
                    format_significant(first.t, 4) + " s: some of it may be missed",
                (simulation.step > 0 && !chosen_by ? "" : "--set method=rk4 ") + std::string("--set step=") + format_shortest(shorter)};
 }
+
+namespace {
 
 // A curve is followed from step to step, and not to be begun in the midst of a run.
 bool follows_a_curve(const Simulation& simulation) {
@@ -221,7 +224,7 @@ std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& tra
   // Steps end at corners of the state; taken again across one they would be others. What `auto` took has been judged.
   const bool has_corners = simulation.torque && simulation.torque->corners() != nullptr;
   if (simulation.step > 0 && !follows_a_curve(simulation) && !(has_corners && chosen_by)) add(StepsAgain(simulation, trajectory).doubt(chosen_by));
-  add(doubt_events(simulation, trajectory, chosen_by));
+  add(doubt_of_events(simulation, trajectory, chosen_by));
   add(doubt_between(simulation, trajectory));
   // No method finds what the equations leave open: what goes wrong there is not mended by another.
   if (rank)

@@ -40,6 +40,9 @@ struct Doubt {
 std::vector<Doubt> doubts_of(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
                              const std::optional<Accuracy>& chosen_by);
 
+// Of its events: of one that turns round at every look, or strays between them, some is missed.
+std::optional<Doubt> doubt_of_events(const Simulation& simulation, const Trajectory& trajectory, const std::optional<Accuracy>& chosen_by);
+
 // Of its energy alone, by what the audit saw.
 std::optional<Doubt> doubt_of_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
                                      const std::optional<Accuracy>& chosen_by);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -174,6 +175,9 @@ std::vector<double> instants_near_enough(const Simulation& simulation, const Tra
 
 std::optional<RankLoss> rank_loss_of(const Simulation& simulation, const Trajectory& trajectory) {
   if (trajectory.rows == 0 || trajectory.size() < 2) return {};
+  // Rows of coordinates alone are the same at every pose.
+  const auto is_of_coordinates = [](const Constraint& one) { return std::holds_alternative<JointConstraint>(one) || std::holds_alternative<LinearConstraint>(one); };
+  if (std::all_of(simulation.constraints.list.begin(), simulation.constraints.list.end(), is_of_coordinates)) return {};
   const std::vector<double> near = instants_near_enough(simulation, trajectory);
   const auto seen_at = [&](std::vector<double> times) {
     times.insert(times.end(), trajectory.t.begin(), trajectory.t.end());

@@ -136,6 +136,8 @@ TEST(Doubts, ThatALimitIsPassedIsAnErrorWhereTheSceneExpectsNone) {
   EXPECT_EQ(run("21", {"--set", "expect=finish"}).status, 0) << "negative control";
   EXPECT_EQ(run_program({"render", scene, "--set", "torque.1=21", "-o", folder.file("a.mp4")}).status, 7);
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.mp4")));
+  EXPECT_EQ(run_program({"snapshot", scene, "--set", "torque.1=21", "--at", "0.05", "-o", folder.file("a.png")}).status, 7) << "passed before";
+  EXPECT_EQ(run_program({"snapshot", scene, "--set", "torque.1=21 * (t > 0.08)", "--at", "0.05", "-o", folder.file("b.png"), "--quiet"}).status, 0) << "passed behind it";
   ASSERT_EQ(run_program({"sweep", scene, "--over", "torque.1=19,21", "-o", folder.file("s.csv"), "--quiet"}).status, 5);
   EXPECT_THAT(read_whole_file(folder.file("s.csv")), AllOf(HasSubstr("\n0,19,1,"), HasSubstr("\n1,21,0,")));
   EXPECT_THAT(run_program({"check", scene, "--set", "model={links: [0.5, 0.4], masses: [2, 1]}"}).err, HasSubstr("expect: within_limits is always fulfilled"));

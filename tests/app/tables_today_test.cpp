@@ -60,6 +60,11 @@ TEST(TablesOfToday, BesideFiguresAreAskedAndMadeAgain) {
   // A chart measures: no record lies beside its numbers.
   ASSERT_EQ(run({"chart", "f.yaml", "--methods", "rk4,verlet", "-o", "out/c.json", "--quiet"}).status, 0);
   EXPECT_FALSE(fs::exists(folder.file("out/c.json.json")));
+  // No record is left of another command.
+  ASSERT_EQ(run({"energy", "f.yaml", "--methods", "rk4", "-o", "out/k.csv", "--quiet"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder.file("out/k.csv.json")));
+  ASSERT_EQ(run({"energy", "f.yaml", "--methods", "verlet", "-o", "out/k.png", "--quiet", "--force"}).status, 0);
+  EXPECT_FALSE(fs::exists(folder.file("out/k.csv.json")));
 }
 
 // A still has no audit beside it: it tells of its own pixels.

@@ -74,6 +74,14 @@ TEST(InverseKinematics, OfRrrBendsAlikeAsLittleAsNeedBe) {
     }
 }
 
+// Three equal links close to a triangle there.
+TEST(InverseKinematics, OfRrrReachesItsOwnBase) {
+  const Chain chain = read_chain("models/rrr.urdf");
+  const auto q = PointSolver(chain, Elbow::up).pose_at(tip_of(chain, {0, 2 * kPi / 3, 2 * kPi / 3}));
+  ASSERT_TRUE(q);
+  EXPECT_NEAR((*q)[1], -2 * kPi / 3, 1e-9);
+}
+
 // A slider first: what it cannot give the two bends do.
 TEST(InverseKinematics, OfASliderFirstBendsAlikeToo) {
   const TemporaryFolder folder;

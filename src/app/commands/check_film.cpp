@@ -305,7 +305,10 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
     remembered = recall(path);
   } catch (const Error&) {
     if (!audit.is_changed) throw;
-    Today broken = gone_of_today(asked, scene, common);
+    AskedFilm film = asked;
+    for (const Json& one : audited_files_of(audit.json))
+      if (word_of(one, "file") == std::filesystem::path(path).filename().string()) film.at = one.value("at", Json());
+    Today broken = gone_of_today(film, scene, common);
     broken.is_gone = false;
     broken.words = {is_other};
     return broken;

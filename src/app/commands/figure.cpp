@@ -159,6 +159,7 @@ std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw
     written.push_back(path);
     if (is_table_path(path)) {
       write_numbers(path, numbers, overwrite_);
+      forget_record(path);  // a new one is written below
       continue;
     }
     if (!picture) picture = draw(), memory = memory_of_chart(options_);
@@ -166,6 +167,7 @@ std::vector<std::string> FigureFiles::write(const std::function<Picture()>& draw
   }
   for (const std::string& table : beside_) {
     write_text_file(table, numbers.csv, overwrite_);
+    forget_record(table);
     written.push_back(table);
   }
   records_.write();

@@ -135,7 +135,7 @@ std::vector<std::size_t> columns_together(const std::vector<std::string>& header
   const auto stem_of = [&](std::size_t i) { return without_number(plain_name(header[i])); };
   std::vector<std::size_t> found;
   for (std::size_t i = 1 + grid.axes().size(); i < header.size(); ++i)
-    if (is_peak(i) && stem_of(i) == wanted) found.push_back(i);
+    if (is_peak(i) && stem_of(i) == wanted && (found.empty() || ColumnName(header[i]).unit == ColumnName(header[found.front()]).unit)) found.push_back(i);
   if (!found.empty()) return found;
   const std::size_t first = find_column(header, grid, last, wanted);
   if (!wanted.empty() || !is_peak(first)) return {first};

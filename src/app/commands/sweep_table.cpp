@@ -177,10 +177,12 @@ class RowMaker {
   // What speaks against a run that came to its end.
   static std::string doubt_of(const Simulation& simulation, const Trajectory& run) {
     if (!is_complete(run.status)) return "";
-    std::optional<Doubt> doubt = doubt_of_energy(simulation, run, audit_of(simulation, run), {});
-    if (!doubt) doubt = doubt_of_rest(simulation);
-    if (!doubt) doubt = doubt_of_rank(simulation, run);
-    return doubt ? kDoubtful + doubt->words : "";
+    if (simulation.motion) return "";
+    std::string words;
+    for (const std::optional<Doubt>& doubt : {doubt_of_energy(simulation, run, audit_of(simulation, run), {}), doubt_of_rest(simulation), doubt_of_rank(simulation, run),
+                                              doubt_of_events(simulation, run, {})})
+      if (doubt) words += (words.empty() ? kDoubtful : "; ") + doubt->words;
+    return words;
   }
 
   // Which limits of joints it passes, the first ones.
@@ -197,8 +199,8 @@ class RowMaker {
     const bool as_expected =
         scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status) && (scene.expect != Outcome::within_limits || run.limits.empty());
     std::string trouble = run.trouble.empty() ? doubt_of(simulation, run) : run.trouble;
-    const auto own = std::ranges::find_if(scene.doubts, [&](const std::string& doubt) { return std::ranges::find(known_, doubt) == known_.end(); });
-    if (trouble.empty() && own != scene.doubts.end()) trouble = kDoubtful + *own;
+    for (const std::string& doubt : scene.doubts)
+      if (std::ranges::find(known_, doubt) == known_.end()) trouble += (trouble.empty() ? kDoubtful : "; ") + doubt;
     if (const std::string limits = limits_of(scene, run); !limits.empty() && is_complete(run.status)) trouble += (trouble.empty() ? "" : "; ") + limits;
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +

@@ -24,6 +24,11 @@ std::string record_of(const std::string& table) {
 
 }  // namespace
 
+void forget_record(const std::string& table) {
+  std::error_code code;
+  if (is_own_sidecar(record_of(table))) fs::remove(record_of(table), code);
+}
+
 void TableRecords::open(const std::vector<std::string>& paths, const std::vector<std::string>& outputs) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i] == "-" || !find_table_format(paths[i])) continue;
@@ -40,9 +45,8 @@ void TableRecords::remember_named_poses(const Json& figure) {
 void TableRecords::write() {
   for (const One& table : tables_) {
     const std::string folder = folder_of(table.path);
-    std::error_code code;
     if (!are_known(inputs_)) {
-      if (is_own_sidecar(record_of(table.path))) fs::remove(record_of(table.path), code);
+      forget_record(table.path);
       continue;
     }
     Json record{{kMadeBy, {{"arguments", words_from(command_, folder)}, {"files", command_.files()}, {kInputs, inputs_}, {"output", fs::path(table.output).filename().string()}}},

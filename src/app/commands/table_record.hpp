@@ -11,6 +11,9 @@
 
 namespace chainreel {
 
+// Takes away the record of a table that is written without one: it told of another command.
+void forget_record(const std::string& table);
+
 class TableRecords {
  public:
   TableRecords(const Command& command, bool overwrite) : command_(command), overwrite_(overwrite) {}

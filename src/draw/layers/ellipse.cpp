@@ -316,7 +316,7 @@ std::vector<MassAxis> section_axes(const EffectiveMass& effective, const Eigen::
                                    EllipseReading reading) {
   const double largest = effective.mobility.size() < 3 ? 0 : effective.mobility.maxCoeff();
   if (!(largest > 0)) return mass_axes(effective);
-  const double least = effective.singular_directions.empty() ? 0 : kSingularFraction * largest;  // 1/kg: smaller counts as none
+  const double least = effective.singular_directions.empty() ? 0 : effective.least;
   // The form of the curve of `energy` grows without bounds at singular poses, where the curve is a segment: a
   // mass beyond all that counts stands for it.
   constexpr double kBeyondAll = 1e-3;

@@ -58,7 +58,7 @@ FootRun::FootRun(const StagedRun& motion)
     const double t = trajectory.t[std::size_t(k)];
     hold_as_then(system, *motion.simulation(), trajectory, t);
     const GroundLoad load = ground_load(system, ws, ground, foot.height, t, q, qd, qdd);
-    if (!(load.grf >= 0 && load.cop >= foot.heel && load.cop <= foot.toe)) held_from = std::min(held_from, k);
+    if (!bears(load, foot)) held_from = std::min(held_from, k);
     answers.push_back({load.cop, load.force / weight, presses_near(load, foot)});
   }
   motion.simulation()->torque->leave_pieces();

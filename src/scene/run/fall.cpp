@@ -211,12 +211,9 @@ std::optional<HeldFoot> held_foot_of(const Simulation& simulation, const Traject
   simulation.torque->leave_pieces();
   const GroundAxes axes = ground_axes(chain);
   const auto load_at = [&](double t, ConstVec q, ConstVec qd) { return ground_load(system, ws, axes, foot.height, t, q, qd, qdd); };
-  const auto bears = [&](double t, ConstVec q, ConstVec qd) {
-    const GroundLoad load = load_at(t, q, qd);
-    return load.grf >= 0 && load.cop >= foot.heel && load.cop <= foot.toe;
-  };
+  const auto stands = [&](double t, ConstVec q, ConstVec qd) { return bears(load_at(t, q, qd), foot); };
   int k = 0;
-  while (k < run.size() && bears(run.t[std::size_t(k)], run.q_at(k), run.qd_at(k))) ++k;
+  while (k < run.size() && stands(run.t[std::size_t(k)], run.q_at(k), run.qd_at(k))) ++k;
   if (k == run.size()) return {};
   if (k == 0) return HeldFoot{run.t.front(), load_at(run.t.front(), run.q_at(0), run.qd_at(0)).grf < 0};
   // Samples may be far apart: between them it is looked for in the motion through both.
@@ -230,7 +227,7 @@ std::optional<HeldFoot> held_foot_of(const Simulation& simulation, const Traject
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (last + first) / 2;
     span.interpolate(system, middle, q, qd);
-    (bears(middle, q, qd) ? last : first) = middle;
+    (stands(middle, q, qd) ? last : first) = middle;
   }
   span.interpolate(system, first, q, qd);
   return HeldFoot{first, load_at(first, q, qd).grf < 0};

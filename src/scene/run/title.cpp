@@ -53,11 +53,12 @@ std::string tips_not_down(const Simulation* simulation, const Trajectory& trajec
 std::string told_of_none(const Scene& scene, const Simulation* simulation, const Trajectory& trajectory) {
   if (!has_fall(scene) || fall_time_of(scene, trajectory)) return scene.title;
   std::string title = scene.title;
-  const std::string tips = tips_not_down(simulation, trajectory), within = " within " + format_significant(trajectory.end_time, 3) + " s";
+  const std::string within = " within " + format_significant(trajectory.end_time, 3) + " s";
   constexpr std::array<std::pair<std::string_view, const char*>, 3> kSaid{{{"falls in {fall}", "does"}, {"Falls in {fall}", "Does"}, {"fall in {fall}", "do"}}};
   for (const auto& [words, verb] : kSaid)
     for (std::size_t at = title.find(words); at != title.npos; at = title.find(words, at + 1))
-      if (at == 0 || !std::isalpha(static_cast<unsigned char>(title[at - 1]))) title.replace(at, words.size(), (tips.empty() ? verb + std::string(" not fall") : tips) + within);
+      if (const std::string tips = tips_not_down(simulation, trajectory); at == 0 || !std::isalpha(static_cast<unsigned char>(title[at - 1])))
+        title.replace(at, words.size(), (tips.empty() ? verb + std::string(" not fall") : tips) + within);
   return title;
 }
 

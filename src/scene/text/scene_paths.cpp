@@ -174,9 +174,10 @@ std::vector<std::string> notes_of_shipped(const YamlDocument& document) {
   visit_paths(document.root, false, [&](const YAML::Node& node) {
     const std::string& named = node.Scalar();
     const std::string found = input_beside(document.file, named);
-    std::error_code ignored;
     // Paths of the command line are those of the working folder, too.
-    if (found == beside(document.file, named) || fs::exists(named, ignored)) return;
+    std::error_code ignored;
+    const bool is_typed = std::any_of(document.overrides.begin(), document.overrides.end(), [&](const Override& one) { return one.value.find(named) != std::string::npos; });
+    if (found == beside(document.file, named) || (is_typed && fs::exists(named, ignored))) return;
     const std::string note = not_there(named, "beside " + document.file, found);
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   });

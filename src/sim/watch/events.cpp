@@ -70,6 +70,10 @@ Parameters foot_parameters(const Foot& foot) {
   return {{"cop", 0.0}, {"grf", 0.0}, {"heel", foot.heel}, {"toe", foot.toe}};
 }
 
+bool bears(const GroundLoad& load, const Foot& foot) {
+  return load.grf >= 0 && load.cop >= foot.heel && load.cop <= foot.toe;  // false without a number
+}
+
 bool presses_near(const GroundLoad& load, const Foot& foot) {
   constexpr double kFarthest = 3;  // lengths of the foot
   return load.grf > 0 && std::abs(load.cop - (foot.heel + foot.toe) / 2) < kFarthest * (foot.toe - foot.heel);
@@ -335,7 +339,9 @@ void EventWatch::probe_between(Integrator& integrator, double a, double b, Event
     if (!std::isfinite(value) || !std::isfinite(now_[i]) || !std::isfinite(before_[i].value)) continue;
     for (const double one : {now_[i], value}) course.low = std::min(course.low, one), course.high = std::max(course.high, one);
     const double range = course.high - course.low, off = std::fabs(value - before_[i].value - share * (now_[i] - before_[i].value));
-    const bool strays = off > kStray * range && range > kTurning * std::max(std::fabs(course.low), std::fabs(course.high)) && range > kNoRange;
+    // A part whose ends differ by as much holds a jump that the looks see.
+    const bool is_jump = std::fabs(now_[i] - before_[i].value) > kStray * range;
+    const bool strays = !is_jump && off > kStray * range && range > kTurning * std::max(std::fabs(course.low), std::fabs(course.high)) && range > kNoRange;
     if (strays && ++course.strays == kHastyTurns) call_hasty(i, t, hits);
   }
 }

@@ -63,6 +63,8 @@ GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes
 GroundLoad ground_load(ChainSystem& system, Workspace& ws, const GroundAxes& axes, double height, double t, ConstVec q,
                        ConstVec qd, Vec qdd);
 
+// Whether a foot that stands can answer so: the ground presses, and within it. A real one turns or rises where not.
+bool bears(const GroundLoad& load, const Foot& foot);
 // Whether it presses (a ground cannot pull) within three of the foot's lengths of its middle: a centre of pressure farther off tells
 // nothing, and none is there without a number.
 bool presses_near(const GroundLoad& load, const Foot& foot);

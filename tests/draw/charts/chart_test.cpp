@@ -325,10 +325,16 @@ TEST(ResponseChart, HasAMarkARunAndGapsWhereThereIsNone) {
   ASSERT_EQ(places.size(), 4u);
   EXPECT_NEAR(places[2].x - places[1].x, 3 * (places[1].x - places[0].x), 1e-9);
   EXPECT_NEAR(places[2].y - places[1].y, 3 * (places[1].y - places[0].y), 1e-9) << "10, 20 and 50 N m";
-  // Without the gap there is one piece more of the curve.
-  ResponseChart whole = data;
-  whole.curves[0].points[2].y = 30;
-  EXPECT_EQ(discs(response_chart(whole, look_of(light_theme()))).size(), 5u);
+  // Without the gap there is one piece less of the first curve, which is solid, a disc more, and no cross on the axis.
+  ResponseChart data_without = data;
+  data_without.curves[0].points[2].y = 30;
+  const Picture whole = response_chart(data_without, look_of(light_theme()));
+  EXPECT_EQ(discs(whole).size(), 5u);
+  EXPECT_EQ(all_of<Trail>(picture).size(), all_of<Trail>(whole).size() + 1);
+  const auto crosses = [](const Picture& drawn) {
+    return std::ranges::count_if(all_of<Capsule>(drawn), [](const Capsule& one) { return one.paint.fill == light_theme().muted; });
+  };
+  EXPECT_EQ(crosses(picture), crosses(whole) + 2) << "two strokes";
   data.curves.clear();
   EXPECT_NO_THROW(response_chart(data, look_of(dark_theme()))) << "nothing to show";
 }
