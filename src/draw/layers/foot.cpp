@@ -21,6 +21,8 @@ constexpr double kWeightArrow = 0.15;  // units of H: as long is the force that 
 constexpr double kBesideOthers = 0.55;  // ... of that, where panels or plots share the page: the robot is what one looks at
 constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones lead out of the scene
 constexpr double kHeldOff = 0.045;     // units of H: of the words that the foot is held, from its middle
+constexpr double kDepths[] = {0.05, 0.08, 0.12};  // units of H, below the ground
+constexpr double kBesideArrow = 0.03;  // units of H
 constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
 
 // A run's foot, and what the ground answers at its samples.
@@ -78,6 +80,7 @@ class FootLayer : public Layer {
       : theme_(&stage.theme),
         page_(&stage.page),
         held_(lay_out_text(stage.fonts, "foot held: a real one turns", {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left})),
+        short_(lay_out_text(stage.fonts, "foot held", {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left})),
         arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
     for (const StagedRun& motion : stage.motions)
       if (is_of(motion) && motion.has_foot()) runs_.emplace(&motion, motion);
@@ -150,12 +153,24 @@ class FootLayer : public Layer {
   // A real foot would tip or rise there; this one is fixed to the ground.
   void add_held(const FootRun& run, const Camera& camera, MarkLabels& labels) const {
     const Point middle = camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));
-    labels.add({"foot held", held_, places_about(held_, middle, kHeldOff, unit(Point{-1, -1}))});
+    std::vector<Rect> places = places_about(held_, middle, kHeldOff, unit(Point{-1, -1}));
+    // Else below the ground, on either side of the arrow, which may be long.
+    const auto add_below = [&](const TextLine& line) {
+      const Point half{line.box.width() / 2, line.box.height() / 2};
+      for (const double depth : kDepths)
+        for (const double side : {1.0, -1.0}) {
+          const Point center = middle + Point{side * (half.x + kBesideArrow), -depth};
+          places.push_back({center.x - half.x, center.y - half.y, center.x + half.x, center.y + half.y});
+        }
+    };
+    add_below(held_);
+    add_below(short_);
+    labels.add({"foot held", held_, std::move(places), {}, {}, {short_}});
   }
 
   const Theme* theme_;
   const Scene* page_;
-  TextLine held_;
+  TextLine held_, short_;  // short_: where there is no room for all
   double arrow_;  // units of H: the weight's
   std::map<const StagedRun*, FootRun> runs_;
   std::optional<double> weight_;  // N, of the first run
