@@ -32,7 +32,10 @@ Json mechanism_of(const ModelSource& source) {
 }
 
 Json model_input(const ModelSource& source) {
-  return {{"elements_sha256", source.elements_sha256()}, {"mechanism", mechanism_of(source)}};
+  Json input;  // nothing that throws stands within braces, see input_of
+  input["elements_sha256"] = source.elements_sha256();
+  input["mechanism"] = mechanism_of(source);
+  return input;
 }
 
 // What the command changes of its scenes.
@@ -45,7 +48,10 @@ std::vector<std::string> overrides_in(const std::vector<std::string>& words) {
 
 Json scene_input(const std::string& path, const std::vector<std::string>& overrides) {
   Scene scene = read_scene(path, overrides, MethodsOf::command);
-  Json input{{"scene", placeless_scene_text(scene)}, {"models", Json::array({model_input(scene.model)})}, {"tables", Json::array({driving_tables(scene)})}};
+  Json input;
+  input["scene"] = placeless_scene_text(scene);
+  input["models"].push_back(model_input(scene.model));
+  input["tables"].push_back(driving_tables(scene));
   for (const Scene& panel : scene.compare) {
     input["models"].push_back(model_input(panel.model));
     input["tables"].push_back(driving_tables(panel));
@@ -56,9 +62,17 @@ Json scene_input(const std::string& path, const std::vector<std::string>& overri
 Json input_of(const std::string& path, const std::vector<std::string>& overrides) {
   const std::string ending = lower_case_ending(path);
   try {
-    Json input = is_model_file(path)                         ? Json{{"models", Json::array({model_input(ModelSource(path))})}}
-                 : ending == ".yaml" || ending == ".yml" ? scene_input(path, overrides)
-                                                             : Json{{"sha256", sha256_of_file(path)}};
+    // Nothing that throws stands within braces: there g++ 12 destroys values that it has not made.
+    Json input;
+    if (is_model_file(path)) {
+      const Json model = model_input(ModelSource(path));
+      input["models"].push_back(model);
+    } else if (ending == ".yaml" || ending == ".yml") {
+      input = scene_input(path, overrides);
+    } else {
+      const std::string sha256 = sha256_of_file(path);
+      input["sha256"] = sha256;
+    }
     input["file"] = fs::path(path).filename().string();
     return input;
   } catch (const Error&) {
