@@ -18,11 +18,13 @@ class TemporaryFolder {
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "chainreel_test_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder " + name);
-    path_ = name;
+    root_ = name;
+    path_ = root_ / "of" / "test";
+    std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() {
     std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    std::filesystem::remove_all(root_, ignored);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -39,7 +41,8 @@ class TemporaryFolder {
   }
 
  private:
-  std::filesystem::path path_;
+  // path_ lies so deep that what is sought around it is not found in the folders of other tests, which run beside this one.
+  std::filesystem::path root_, path_;
 };
 
 // A whole file as it is. A file that cannot be read is a broken test, not an empty text.
