@@ -195,7 +195,10 @@ std::optional<std::vector<double>> PointSolver::bent_alike(const Eigen::Vector2d
     double low = std::max(best - 1.0 / kBends, 0.0), high = std::min(best + 1.0 / kBends, 1.0);
     for (int i = 0; i < 2 * kHalvings; ++i) {
       const double left = low + (high - low) / 3, right = high - (high - low) / 3;
-      (off(left) < off(right) ? high : low) = off(left) < off(right) ? right : left;
+      if (off(left) < off(right))
+        high = right;
+      else
+        low = left;
     }
     off((low + high) / 2);
     return moved_there();

@@ -18,7 +18,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kNoRow = 1e-10;        // an eigenvalue, squared, of rows of size 1: rounding
-constexpr int kMostMinima = 64;            // minima looked at closer
+constexpr int kMostMinima = 64;         // minima looked at closer
 constexpr int kMostLooksAtPose = 60;    // each narrows an interval to 0.62 of itself
 constexpr int kInstantsAbout = 400;     // of a second run, between three samples
 constexpr double kFar = 2;              // of a change from sample to sample
@@ -153,10 +153,6 @@ class RowStrengths {
   std::vector<std::vector<double>> curve_s_;  // before each, where there are curves
   std::vector<double> q_, qd_;                // qd_: zero, no rate is asked
 };
-
-}  // namespace
-
-namespace {
 
 // Where no joint goes far from one to the next, as far as the rates at the samples tell; none where the samples lie so.
 std::vector<double> instants_near_enough(const Simulation& simulation, const Trajectory& trajectory) {

@@ -58,6 +58,8 @@ OwnAudit own_audit(const std::string& path, AuditsOfFolders& audits) {
     });
     if (own == check.files.end()) return {};
     OwnAudit audit{audit_beside(telling), own->state != AuditedState::as_written || !check.contradicted.empty(), fs::path(check.audit).parent_path().string()};
+    for (const Json& one : audited_files_of(audit.json))
+      if (word_of(one, "file") == fs::path(path).filename().string()) audit.at = one.value("at", Json());
     const bool is_record = audit.json.is_object() && audit.json.contains(kMadeBy);
     for (const AuditCheck::File& file : check.files)
       if (!is_record && file.state == AuditedState::missing && find_output_format(file.path) == nullptr) audit.texts_gone.push_back(file.path);
@@ -90,7 +92,7 @@ void add_gone(const std::string& audit, std::vector<AskedFilm>& list) {
     const std::string file = (folder / fs::path(word_of(one, "file")).filename()).string();
     std::error_code code;
     if ((find_output_format(file) != nullptr || json.contains(kMadeBy)) && !fs::exists(fs::symlink_status(file, code)))
-      list.push_back({file, {json, false, folder.string()}, true, "", nullptr, one.value("at", Json())});
+      list.push_back({file, {json, false, folder.string(), one.value("at", Json())}, true});
   }
 }
 

@@ -13,6 +13,7 @@ struct OwnAudit {
   Json json;                // null where there is none that tells of it
   bool is_changed = false;  // the film has other bytes than it says
   std::string folder;       // of the audit
+  Json at = nullptr;        // of a picture: its instant, s
   std::vector<std::string> texts_gone{};  // captions and words that it tells of and that are not there
 };
 
@@ -22,7 +23,6 @@ struct AskedFilm {
   bool is_gone = false;     // the audit tells of it, and it is not there
   std::string scene{};      // where no audit tells of it, the one of the name that it remembers
   Json set = nullptr;       // likewise, what --set changed, as pictures of `snapshot` remember; null: nobody knows
-  Json at = nullptr;        // of a picture that is gone: its instant, s
 };
 
 // Of folders, and of those in them, what an audit tells of, or whose scene lies about under the name that they remember.

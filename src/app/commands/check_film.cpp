@@ -205,7 +205,7 @@ Today table_of_today(const AskedFilm& asked, const std::string& scene, const Com
 Today gone_of_today(const AskedFilm& asked, const std::string& scene, const CommonOptions& common) {
   const PreparedFilm film = film_behind(asked, scene, common);
   Today found{.path = asked.path, .scene = film.scene.file, .is_gone = true};
-  found.again = remaking_of(asked, film, {{"at", asked.at}}, common);
+  found.again = remaking_of(asked, film, {{"at", asked.audit.at}}, common);
   return found;
 }
 
@@ -305,10 +305,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
     remembered = recall(path);
   } catch (const Error&) {
     if (!audit.is_changed) throw;
-    AskedFilm film = asked;
-    for (const Json& one : audited_files_of(audit.json))
-      if (word_of(one, "file") == std::filesystem::path(path).filename().string()) film.at = one.value("at", Json());
-    Today broken = gone_of_today(film, scene, common);
+    Today broken = gone_of_today(asked, scene, common);
     broken.is_gone = false;
     broken.words = {is_other};
     return broken;

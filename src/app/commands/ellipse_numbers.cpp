@@ -87,7 +87,7 @@ std::string ellipse_csv(const TipMass& tip, const GatheredPoses& poses, const El
   const TaskBasis basis = task_basis(chain, Task::linear);
   const std::size_t rows = basis.names.size();
   std::string text = poses.t.empty() ? "" : "t,";
-  for (const DescribedCoordinate& one : coordinates_of(chain)) text += (one.unit.empty() ? "q." + one.name : with_unit("q." + one.name, one.unit)) + ",";
+  for (const DescribedCoordinate& one : coordinates_of(chain)) text += with_unit("q." + one.name, one.unit) + ",";
   text += "x [m],y [m],z [m]";
   for (const auto& [symbol, unit] : {std::pair("Lambda_inv_", "1/kg"), std::pair("Lambda_", "kg")})
     for (std::size_t i = 0; i < rows; ++i)

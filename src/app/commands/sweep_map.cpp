@@ -72,12 +72,9 @@ std::string method_of(const Grid& grid, const Scene& scene) {
   return varies_method(grid) || scene.chooses_method() ? "" : ", " + method_title(scene.method) + method_text(scene).substr(scene.method.size());
 }
 
-bool is_read_in_degrees(const Sweep& sweep) {
-  return !sweep.logarithmic && title_of_axis(sweep).find("[rad]") != std::string::npos;
-}
-
+// By what its numbers are shown: angles are read in degrees.
 double degrees_of(const Sweep& sweep) {
-  return is_read_in_degrees(sweep) ? 180 / std::numbers::pi : 1;
+  return !sweep.logarithmic && title_of_axis(sweep).find("[rad]") != std::string::npos ? 180 / std::numbers::pi : 1;
 }
 
 // "peak_tau [N m]" of "peak_tau1 [N m]".
@@ -90,12 +87,11 @@ std::string stem_column(const std::string& column) {
 Axis in_its_units(const Sweep& sweep, Axis axis) {
   constexpr std::size_t kFewValues = 12;
   if (!sweep.logarithmic && sweep.numbers.size() <= kFewValues) axis.at = sweep.numbers;
-  const std::size_t unit = axis.title.find("[rad]");
-  if (unit == std::string::npos || sweep.logarithmic) return axis;
-  constexpr double kDegree = 180 / std::numbers::pi;
-  axis.title.replace(unit, 5, "[deg]");
-  for (double* end : {&axis.low, &axis.high}) *end *= kDegree;
-  for (double& tick : axis.at) tick = std::round(1e9 * kDegree * tick) / 1e9;
+  const double degrees = degrees_of(sweep);
+  if (degrees == 1) return axis;
+  axis.title.replace(axis.title.find("[rad]"), 5, "[deg]");
+  for (double* end : {&axis.low, &axis.high}) *end *= degrees;
+  for (double& tick : axis.at) tick = std::round(1e9 * degrees * tick) / 1e9;
   return axis;
 }
 
@@ -133,12 +129,13 @@ namespace {
 std::vector<std::size_t> columns_together(const std::vector<std::string>& header, const Grid& grid, const std::vector<std::string>& last, const std::string& wanted) {
   const auto is_peak = [&](std::size_t i) { return ColumnName(header[i]).name.starts_with(kPeak); };
   const auto stem_of = [&](std::size_t i) { return without_number(plain_name(header[i])); };
+  std::size_t first = 1 + grid.axes().size();
+  while (first < header.size() && !(is_peak(first) && stem_of(first) == wanted)) ++first;
+  if (first == header.size()) {
+    first = find_column(header, grid, last, wanted);
+    if (!wanted.empty() || !is_peak(first)) return {first};
+  }
   std::vector<std::size_t> found;
-  for (std::size_t i = 1 + grid.axes().size(); i < header.size(); ++i)
-    if (is_peak(i) && stem_of(i) == wanted && (found.empty() || ColumnName(header[i]).unit == ColumnName(header[found.front()]).unit)) found.push_back(i);
-  if (!found.empty()) return found;
-  const std::size_t first = find_column(header, grid, last, wanted);
-  if (!wanted.empty() || !is_peak(first)) return {first};
   for (std::size_t i = first; i < header.size(); ++i)
     if (is_peak(i) && stem_of(i) == stem_of(first) && ColumnName(header[i]).unit == ColumnName(header[first]).unit) found.push_back(i);
   return found;

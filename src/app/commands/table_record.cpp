@@ -49,8 +49,9 @@ void TableRecords::write() {
       forget_record(table.path);
       continue;
     }
+    const Json written = audited_file(table.path);  // may throw, see command_inputs
     Json record{{kMadeBy, {{"arguments", words_from(command_, folder)}, {"files", command_.files()}, {kInputs, inputs_}, {"output", fs::path(table.output).filename().string()}}},
-                      {kAuditedFiles, Json::array({audited_file(table.path)})}};
+                      {kAuditedFiles, Json::array({written})}};
     if (!named_poses_.is_null()) record[kMadeBy]["named_poses"] = named_poses_;
     write_text_file(record_of(table.path), record.dump(2) + "\n", true);
   }

@@ -79,8 +79,8 @@ class FootLayer : public Layer {
   explicit FootLayer(const Stage& stage)
       : theme_(&stage.theme),
         page_(&stage.page),
-        held_(lay_out_text(stage.fonts, "foot held: a real one turns", {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left})),
-        short_(lay_out_text(stage.fonts, "foot held", {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left})),
+        held_(words(stage, "foot held: a real one turns")),
+        short_(words(stage, "foot held")),
         arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
     for (const StagedRun& motion : stage.motions)
       if (is_of(motion) && motion.has_foot()) runs_.emplace(&motion, motion);
@@ -150,6 +150,10 @@ class FootLayer : public Layer {
   }
 
  private:
+  static TextLine words(const Stage& stage, const char* text) {
+    return lay_out_text(stage.fonts, text, {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left});
+  }
+
   // A real foot would tip or rise there; this one is fixed to the ground.
   void add_held(const FootRun& run, const Camera& camera, MarkLabels& labels) const {
     const Point middle = camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));

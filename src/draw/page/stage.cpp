@@ -50,6 +50,7 @@ StagedRun::StagedRun(const PanelRun& run, int samples, bool counts, bool freezes
       counts_(counts),
       freezes_(freezes),
       variant_(std::move(variant)),
+      title_(title_of(run.scene, run.simulation, run.trajectory)),
       skeleton_(skeleton_of(run.chain)),
       ws_(std::make_unique<Workspace>(run.chain)) {
   // A run that finished is drawn wherever it went: a free fall may be long.
@@ -62,10 +63,6 @@ int StagedRun::curve_samples() const {
   if (samples_ == 0 || !run_.trajectory.between) return samples_;
   const std::vector<double>& t = curve_run().t;
   return int(std::upper_bound(t.begin(), t.end(), run_.trajectory.t[std::size_t(samples_) - 1]) - t.begin());
-}
-
-std::string StagedRun::title() const {
-  return title_of(run_.scene, run_.simulation, run_.trajectory);
 }
 
 bool StagedRun::is_wild() const {

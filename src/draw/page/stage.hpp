@@ -61,7 +61,7 @@ class StagedRun {
   const BodyShapes* shapes() const { return run_.shapes; }
   bool is_constrained() const { return run_.simulation && !run_.simulation->constraints.empty(); }
   bool has_foot() const { return run_.simulation && run_.simulation->events && run_.simulation->events->foot; }
-  std::string title() const;  // of the scene, with what it says of this run
+  const std::string& title() const { return title_; }  // of the scene, with what it says of this run
   const std::optional<Variant>& variant() const { return variant_; }
   const Theme& theme_of(const Theme& page) const { return variant_ ? *variant_->theme : page; }
   bool is_outlined() const { return variant_ && variant_->outlined; }
@@ -92,6 +92,7 @@ class StagedRun {
   int samples_;
   bool counts_, freezes_;
   std::optional<Variant> variant_;
+  std::string title_;
   double limit_ = 0;
   Skeleton skeleton_;
   std::unique_ptr<Workspace> ws_;

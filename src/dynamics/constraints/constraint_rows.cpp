@@ -254,29 +254,29 @@ namespace {
 
 constexpr double kSameRow = 1e-9;
 
+Eigen::MatrixXd rows_of(const Chain& chain, const ConstraintSet& set, const ConstrainedWorkspace& cws) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(cws.Jc.data(), set.rows(), chain.nv);
+}
+
 }  // namespace
 
 bool repeats_others(const Chain& chain, const ConstraintSet& set, const ConstrainedWorkspace& cws, std::size_t k) {
-  // How many freedoms these rows take.
-  const auto taken_by = [&](const auto& is_asked) {
-    Eigen::MatrixXd rows(0, chain.nv);
-    for (int i = 0; i < set.rows(); ++i) {
-      if (!is_asked(i)) continue;
-      rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
-      rows.row(rows.rows() - 1) = Eigen::Map<const Eigen::RowVectorXd>(cws.Jc.data() + std::size_t(i) * std::size_t(chain.nv), chain.nv);
-    }
-    return rows.rows() == 0 ? Eigen::Index(0) : chain.nv - null_space(rows, kSameRow).cols();
-  };
-  const auto is_own = [&](int i) { return i >= set.first_row(k) && i < set.first_row(k + 1); };
-  return taken_by([](int) { return true; }) < taken_by(is_own) + taken_by([&](int i) { return !is_own(i); });
+  const Eigen::MatrixXd all = rows_of(chain, set, cws);
+  const int first = set.first_row(k), count = set.first_row(k + 1) - first;
+  Eigen::MatrixXd others(all.rows() - count, chain.nv);
+  others.topRows(first) = all.topRows(first);
+  others.bottomRows(others.rows() - first) = all.bottomRows(others.rows() - first);
+  // How many freedoms rows take.
+  const auto taken_by = [&](const Eigen::MatrixXd& rows) { return rows.rows() == 0 ? Eigen::Index(0) : chain.nv - null_space(rows, kSameRow).cols(); };
+  return taken_by(all) < taken_by(all.middleRows(first, count)) + taken_by(others);
 }
 
 Eigen::MatrixXd free_directions(const Chain& chain, Workspace& ws, const ConstraintSet& set, ConstVec q) {
   ConstrainedWorkspace cws(chain, set);
   const std::vector<double> rest(std::size_t(chain.nv));
   compute_constraints(chain, ws, set, cws, q, rest);
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return null_space(Eigen::Map<const Rows>(cws.Jc.data(), set.rows(), chain.nv), kSameRow);
+  return null_space(rows_of(chain, set, cws), kSameRow);
 }
 
 }  // namespace chainreel

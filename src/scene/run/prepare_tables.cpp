@@ -66,8 +66,7 @@ void look_at_span(Scene& scene, const std::string& path, const std::vector<doubl
 }
 
 // Of the table of a motion that is followed.
-void look_at_units(Scene& scene, const Chain& chain, const std::string& path) {
-  const Table table = read_table(path, {});
+void look_at_units(Scene& scene, const Chain& chain, const Table& table) {
   const TimeTable motion = time_table_of(table, {"q"}, chain.coordinate_names);
   if (motion.t.size() < 2 || motion.groups[0].empty()) return;
   for (const std::string& doubt : doubts_of_units(chain, table, motion, ColumnNames{}.time.name, false))
@@ -79,9 +78,12 @@ void look_at_controls(Scene& scene, const Chain& chain) {
     Control& control = *one.control;
     const auto look = [&](const std::string& path, const std::optional<Outside>& outside, const std::string& what, bool is_log = false) {
       if (path.empty()) return;
-      if (!is_log) look_at_units(scene, chain, path);
+      if (is_log && is_meant(outside)) return;
+      const ColumnNames names = is_log ? control.columns : ColumnNames{};
+      const Table table = read_table(path, names);
+      if (!is_log) look_at_units(scene, chain, table);
       if (is_meant(outside)) return;
-      std::vector<double> t = read_time_table(path, {}, chain.coordinate_names, is_log ? control.columns : ColumnNames{}).t;
+      std::vector<double> t = time_table_of(table, {}, chain.coordinate_names, names).t;
       if (is_log) set_clock(scene, control, t);
       look_at_span(scene, path, t, outside, what, control.place);
     };

@@ -57,8 +57,10 @@ std::string told_of_none(const Scene& scene, const Simulation* simulation, const
   constexpr std::array<std::pair<std::string_view, const char*>, 3> kSaid{{{"falls in {fall}", "does"}, {"Falls in {fall}", "Does"}, {"fall in {fall}", "do"}}};
   for (const auto& [words, verb] : kSaid)
     for (std::size_t at = title.find(words); at != title.npos; at = title.find(words, at + 1))
-      if (const std::string tips = tips_not_down(simulation, trajectory); at == 0 || !std::isalpha(static_cast<unsigned char>(title[at - 1])))
+      if (at == 0 || !std::isalpha(static_cast<unsigned char>(title[at - 1]))) {
+        const std::string tips = tips_not_down(simulation, trajectory);
         title.replace(at, words.size(), (tips.empty() ? verb + std::string(" not fall") : tips) + within);
+      }
   return title;
 }
 
@@ -87,8 +89,9 @@ std::string title_of(const Scene& scene, const Simulation* simulation, const Tra
   // A name that was made for a panel tells what came of it, too.
   const bool is_made = !scene.title.empty() && !scene.places.contains("title");
   if (is_made && !tells_fall && has_fall(scene)) {
-    const std::string tips = fall_time_of(scene, trajectory) ? "" : tips_not_down(simulation, trajectory);
-    title += ": " + (fall_time_of(scene, trajectory) ? "falls in " + fall_time_text(scene, trajectory) : tips.empty() ? "does not fall" : tips);
+    const bool falls = fall_time_of(scene, trajectory).has_value();
+    const std::string tips = falls ? "" : tips_not_down(simulation, trajectory);
+    title += ": " + (falls ? "falls in " + fall_time_text(scene, trajectory) : tips.empty() ? "does not fall" : tips);
   }
   for (const auto& [name, value] : scene.set_parameters)
     if (!told.contains(name)) title += (title.empty() ? "" : ", ") + name + " = " + value_text(value);

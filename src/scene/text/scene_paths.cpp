@@ -92,6 +92,11 @@ bool stays_shipped(const std::string& path, const fs::path& from, const fs::path
   return !shipped_input(path).empty() && !fs::exists(from / path, ignored) && !fs::exists(to / path, ignored);
 }
 
+// Whether the command line named it.
+bool is_typed(const YamlDocument& document, const std::string& path) {
+  return std::any_of(document.overrides.begin(), document.overrides.end(), [&](const Override& one) { return one.value.find(path) != std::string::npos; });
+}
+
 // Whether the scene is one of those that come with the program, and names their models by their places.
 bool lies_among_shipped(const Scene& scene) {
   std::error_code ignored;
@@ -157,13 +162,9 @@ std::string placeless_scene_text(const Scene& scene) {
 }
 
 std::vector<std::string> absolute_paths_of(const YamlDocument& document) {
-  const auto is_of_command_line = [&](const std::string& path) {
-    return std::any_of(document.overrides.begin(), document.overrides.end(),
-                       [&](const Override& one) { return one.value.find(path) != std::string::npos; });
-  };
   std::vector<std::string> paths;
   visit_paths(document.root, false, [&](const YAML::Node& node) {
-    if (fs::path(node.Scalar()).is_absolute() && !is_of_command_line(node.Scalar()))
+    if (fs::path(node.Scalar()).is_absolute() && !is_typed(document, node.Scalar()))
       paths.push_back(node.Scalar());
   });
   return paths;
@@ -176,8 +177,7 @@ std::vector<std::string> notes_of_shipped(const YamlDocument& document) {
     const std::string found = input_beside(document.file, named);
     // Paths of the command line are those of the working folder, too.
     std::error_code ignored;
-    const bool is_typed = std::any_of(document.overrides.begin(), document.overrides.end(), [&](const Override& one) { return one.value.find(named) != std::string::npos; });
-    if (found == beside(document.file, named) || (is_typed && fs::exists(named, ignored))) return;
+    if (found == beside(document.file, named) || (is_typed(document, named) && fs::exists(named, ignored))) return;
     const std::string note = not_there(named, "beside " + document.file, found);
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   });
