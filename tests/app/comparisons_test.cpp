@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/commands/comparison.hpp"
+#include "app/compare/comparison.hpp"
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "encode/small_frames.hpp"

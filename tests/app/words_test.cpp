@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "app/all_pictures.hpp"
-#include "app/commands/pose_page.hpp"
+#include "app/paper/pose_page.hpp"
 #include "app/ink.hpp"
 #include "app/print_pictures.hpp"
 #include "core/format.hpp"

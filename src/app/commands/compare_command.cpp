@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "app/cli/result.hpp"
-#include "app/commands/comparison.hpp"
+#include "app/compare/comparison.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 

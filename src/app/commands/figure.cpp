@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/commands/command_inputs.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/film/target.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/report/version.hpp"
+#include "app/today/command_inputs.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/cli/command.hpp"
-#include "app/commands/paper.hpp"
-#include "app/commands/table_record.hpp"
 #include "app/film/clip_memory.hpp"
+#include "app/paper/paper.hpp"
+#include "app/today/table_record.hpp"
 #include "core/frame_rate.hpp"
 #include "core/json.hpp"
 #include "draw/charts/chart_page.hpp"

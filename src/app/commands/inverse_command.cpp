@@ -6,11 +6,11 @@
 
 #include "app/cli/command.hpp"
 #include "app/cli/table_files.hpp"
-#include "app/commands/table_record.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/report/peaks.hpp"
 #include "app/report/run_report.hpp"
+#include "app/today/table_record.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "scene/run/prepare.hpp"

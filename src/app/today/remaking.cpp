@@ -1,13 +1,13 @@
-#include "app/commands/remaking.hpp"
+#include "app/today/remaking.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <map>
 
-#include "app/commands/paper.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/film/formats.hpp"
+#include "app/paper/paper.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/works/moment.hpp"
 #include "core/error.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/cli/command.hpp"
-#include "app/commands/asked_films.hpp"
 #include "app/film/prepared.hpp"
+#include "app/today/asked_films.hpp"
 #include "core/json.hpp"
 
 namespace chainreel {

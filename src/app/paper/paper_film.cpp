@@ -1,4 +1,4 @@
-#include "app/commands/paper_film.hpp"
+#include "app/paper/paper_film.hpp"
 
 #include <cmath>
 #include <cstdio>

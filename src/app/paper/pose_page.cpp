@@ -1,4 +1,4 @@
-#include "app/commands/pose_page.hpp"
+#include "app/paper/pose_page.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "app/commands/table_record.hpp"
+#include "app/today/table_record.hpp"
 
 #include <filesystem>
 
-#include "app/commands/command_inputs.hpp"
 #include "app/film/clip_origin.hpp"
 #include "app/report/sidecar.hpp"
+#include "app/today/command_inputs.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
 #include "table/data_table.hpp"

@@ -1,4 +1,4 @@
-#include "app/commands/asked_films.hpp"
+#include "app/today/asked_films.hpp"
 
 #include <algorithm>
 #include <filesystem>

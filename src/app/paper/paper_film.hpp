@@ -1,8 +1,8 @@
 // A film's page on paper: as high as its plots and panels need beside words of 7 pt.
 #pragma once
 
-#include "app/commands/paper.hpp"
 #include "app/film/prepared.hpp"
+#include "app/paper/paper.hpp"
 #include "picture/text.hpp"
 
 namespace chainreel {

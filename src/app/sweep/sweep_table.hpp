@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/sweep_rows.hpp"
 #include "app/report/peaks.hpp"
+#include "app/sweep/sweep_rows.hpp"
 #include "app/works/part.hpp"
 #include "scene/run/grid.hpp"
 

@@ -1,10 +1,11 @@
-#include "app/commands/comparison.hpp"
+#include "app/compare/comparison.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <optional>
 
 #include "app/film/clip_memory.hpp"
+#include "app/film/clip_origin.hpp"
 #include "app/report/compared_picture.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"

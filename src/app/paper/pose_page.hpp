@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "app/commands/paper.hpp"
+#include "app/paper/paper.hpp"
 #include "draw/figures/poses.hpp"
 
 namespace chainreel {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "app/cli/streams.hpp"
-#include "app/commands/comparison.hpp"
+#include "app/compare/comparison.hpp"
 #include "app/report/compared_picture.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"

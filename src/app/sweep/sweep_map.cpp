@@ -1,4 +1,4 @@
-#include "app/commands/sweep_map.hpp"
+#include "app/sweep/sweep_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "app/commands/map_axes.hpp"
-#include "app/commands/sweep_table.hpp"
 #include "app/film/formats.hpp"
 #include "app/report/report.hpp"
+#include "app/sweep/map_axes.hpp"
+#include "app/sweep/sweep_table.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"

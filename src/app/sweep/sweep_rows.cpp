@@ -1,4 +1,4 @@
-#include "app/commands/sweep_rows.hpp"
+#include "app/sweep/sweep_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/commands/command_inputs.hpp"
+#include "app/today/command_inputs.hpp"
 
 #include <algorithm>
 #include <filesystem>

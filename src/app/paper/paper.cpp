@@ -1,4 +1,4 @@
-#include "app/commands/paper.hpp"
+#include "app/paper/paper.hpp"
 
 #include <algorithm>
 #include <cmath>

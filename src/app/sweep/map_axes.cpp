@@ -1,4 +1,4 @@
-#include "app/commands/map_axes.hpp"
+#include "app/sweep/map_axes.hpp"
 
 #include <cmath>
 

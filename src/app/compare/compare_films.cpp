@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "app/cli/streams.hpp"
-#include "app/commands/comparison.hpp"
+#include "app/compare/comparison.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/sidecar.hpp"
 #include "core/error.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/commands/comparison.hpp"
+#include "app/compare/comparison.hpp"
 #include "app/film/model_scene.hpp"
 #include "app/report/report.hpp"
 #include "app/verify/physics_record.hpp"
@@ -51,7 +51,7 @@ SampledTrajectory trajectory_of(const Table& table, const std::string& path) {
 }
 
 // The columns of `table` in the order of `names`, where those are its own.
-bool put_in_order(Table& table, const std::vector<std::string>& names) {
+bool give_columns_order(Table& table, const std::vector<std::string>& names) {
   if (!std::is_permutation(table.names.begin(), table.names.end(), names.begin(), names.end())) return false;
   std::vector<std::vector<double>> columns;
   for (const std::string& name : names) columns.push_back(std::move(table.columns[std::size_t(table.find(name))]));
@@ -175,7 +175,7 @@ Comparison compare_trajectories(const CompareOptions& options) {
     note_input(path);
     tables[i] = read_csv(path);
   }
-  const bool other_order = tables[0].names != tables[1].names && put_in_order(tables[1], tables[0].names);
+  const bool other_order = tables[0].names != tables[1].names && give_columns_order(tables[1], tables[0].names);
   const std::string other_units = put_in_units(tables[1], tables[0]);
   const SampledTrajectory before = trajectory_of(tables[0], options.before),
                           after = trajectory_of(tables[1], options.after);
