@@ -42,38 +42,15 @@ Eigen::MatrixXd inverse_of_effective_mass(const Chain& chain, Workspace& ws) {
   return 0.5 * (Lambda_inv + Lambda_inv.transpose());
 }
 
-// The length of the mechanism that makes angular rows comparable with linear ones, m; 1 where J has but one kind of them.
-double length_of(const TaskBasis& basis, const Eigen::MatrixXd& J) {
-  double angular = 0, linear = 0;
-  for (Eigen::Index r = 0; r < J.rows(); ++r)
-    (basis.names[std::size_t(r)].starts_with("w_") ? angular : linear) += J.row(r).squaredNorm();
-  return angular > 0 && linear > 0 ? std::sqrt(linear / angular) : 1;
-}
-
-// Whether `direction` has less than kAcross of each column, which is neither a matter of masses nor of units.
-bool is_across(const TaskBasis& basis, const Eigen::MatrixXd& J, const Eigen::VectorXd& direction) {
-  const double length = length_of(basis, J);
-  Eigen::VectorXd scale(J.rows());
-  for (Eigen::Index r = 0; r < J.rows(); ++r) scale(r) = basis.names[std::size_t(r)].starts_with("w_") ? length : 1;
-  const double size = direction.cwiseQuotient(scale).norm();
-  for (Eigen::Index c = 0; c < J.cols(); ++c)
-    if (std::fabs(direction.dot(J.col(c))) > kAcross * size * J.col(c).cwiseProduct(scale).norm()) return false;
-  return true;
-}
-
 }  // namespace
 
-void find_directions(EffectiveMass& effective, double scale, const std::function<bool(const Eigen::VectorXd&)>& across) {
-  constexpr double kRounding = 1e-13;  // of the largest: no eigenvalue, but what is left of one
+void find_directions(EffectiveMass& effective, double free) {
   SymmetricEigen eigen = eigen_of_symmetric(effective.Lambda_inv);
   effective.mobility = eigen.values.cwiseMax(0.0);  // round-off may leave a zero below zero
   effective.directions = std::move(eigen.vectors);
-  const double largest = scale > 0 ? scale : effective.mobility.maxCoeff();
-  const double least = effective.least = scale > 0 ? kForbiddenFraction * scale : kSingularFraction * effective.mobility.maxCoeff();
+  effective.least = free > 0 ? kForbiddenFraction * free : kSingularFraction * effective.mobility.maxCoeff();
   for (Eigen::Index k = 0; k < effective.mobility.size(); ++k) {
-    const double mobility = effective.mobility(k);
-    const bool is_small = !(mobility > least);
-    effective.is_infinite.push_back(is_small && (!(mobility > kRounding * largest) || across(effective.directions.col(k))));
+    effective.is_infinite.push_back(!(effective.mobility(k) > effective.least));
     if (effective.is_infinite.back()) effective.singular_directions.emplace_back(effective.directions.col(k));
   }
 }
@@ -88,8 +65,7 @@ EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, i
   compute_jacobian(chain, ws, q, frame, task);
   result.Lambda_inv = inverse_of_effective_mass(chain, ws);
 
-  const Eigen::MatrixXd J = ws.J;
-  find_directions(result, 0, [&](const Eigen::VectorXd& direction) { return is_across(result.basis, J, direction); });
+  find_directions(result);
   if (!result.singular_directions.empty()) return result;
 
   if (ws.J.rows() == ws.J.cols()) {

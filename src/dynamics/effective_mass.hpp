@@ -4,7 +4,6 @@
 // Modern Robotics, ch. 8.1.1).
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "dynamics/kinematics.hpp"
@@ -12,13 +11,11 @@
 
 namespace chainreel {
 
-// An eigenvalue of Lambda_inv below this fraction of the largest counts as zero, infinite mass in that direction, where no
-// joint moves the frame along it: where its direction has less than kAcross of each column of J, angular rows measured in
-// lengths of the mechanism. Heavy axes beside light ones are finite.
-inline constexpr double kSingularFraction = 1e-10;
+// An eigenvalue of Lambda_inv below this fraction of the largest is what rounding leaves of none: infinite mass in that direction. A tenth of a
+// microradian beside a stretched arm the mass is finite.
+inline constexpr double kSingularFraction = 1e-13;
 // The same of a mechanism whose constraints forbid motions, of what the chain could do without them: rounding of the rows is left there.
 inline constexpr double kForbiddenFraction = 1e-6;
-inline constexpr double kAcross = 1e-2;
 
 struct EffectiveMass {
   TaskBasis basis;
@@ -26,7 +23,7 @@ struct EffectiveMass {
   std::optional<Eigen::MatrixXd> Lambda;  // kg; absent at singular poses
   Eigen::VectorXd mobility;               // eigenvalues of Lambda_inv, rising: 1/kg; never negative
   Eigen::MatrixXd directions;             // their unit eigenvectors, columns, in the basis
-  double least = 0;                       // 1/kg: mobilities below it count as none, where nothing moves along them
+  double least = 0;                       // 1/kg: mobilities below it count as none
   std::vector<bool> is_infinite;          // one a direction: its mass is
   std::vector<Eigen::VectorXd> singular_directions;  // unit vectors of infinite mass, in the basis
 };
@@ -34,10 +31,9 @@ struct EffectiveMass {
 // Uses ws.J, ws.M, ws.tau and ws.qdd on the way.
 EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, int frame, Task task);
 
-// Fills mobility, directions, is_infinite and singular_directions from Lambda_inv. What lies below kForbiddenFraction of `scale`,
-// 1/kg, counts as zero; 0: below kSingularFraction of the largest mobility. `across` tells whether no joint moves the frame along a unit vector in the
-// basis.
-void find_directions(EffectiveMass& effective, double scale, const std::function<bool(const Eigen::VectorXd&)>& across);
+// Fills mobility, directions, least, is_infinite and singular_directions from Lambda_inv. What lies below kForbiddenFraction of `free`, 1/kg, counts as
+// zero; where that is 0, below kSingularFraction of the largest mobility.
+void find_directions(EffectiveMass& effective, double free = 0);
 // Lambda from mobility and directions, none of them singular.
 Eigen::MatrixXd inverse_by_directions(const EffectiveMass& effective);
 

@@ -162,11 +162,10 @@ struct EndLabel {
   Point end;  // page point where the curve ends
   std::string text;  // formulas between dollar signs
   CurveStyle curve;
-  bool is_quiet = false;  // one of many that others stand out from
 };
 
 // Labels in a column right of the frame that starts at `x`, in the order of their ends, moved apart so that
-// none overlaps another; a thin leader ties each that is not quiet to its end. Keys of the curves stand before the words.
+// none overlaps another; a thin leader ties each to its end. Keys of the curves stand before the words.
 void draw_end_labels(Picture& picture, const PlotFrame& frame, std::vector<EndLabel> labels, double x,
                      const PlotStyle& style);
 // The width that draw_end_labels will take.

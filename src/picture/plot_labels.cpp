@@ -119,11 +119,11 @@ void draw_end_labels(Picture& picture, const PlotFrame& frame, std::vector<EndLa
     const EndLabel& label = labels[i];
     const Point at = {x, places[i]};
     const Color thin = label.curve.color.faded(kLeaderOpacity * label.curve.color.a);
-    if (!label.is_quiet) picture.add(Capsule{label.end, {at.x - kLeaderGap, at.y}, kLeader / 2, {thin, {}, 0}});
+    picture.add(Capsule{label.end, {at.x - kLeaderGap, at.y}, kLeader / 2, {thin, {}, 0}});
     draw_key(picture, at, kKeyLength, label.curve, *style.theme);
     draw_text(picture,
               lay_out_words(*style.fonts, label.text,
-                            {Face::label, em, label.is_quiet ? style.theme->muted : style.theme->ink, Align::left}),
+                            {Face::label, em, style.theme->ink, Align::left}),
               {at.x + kKeyLength + kKeyToText, at.y - kCapHeight * em / 2});
   }
 }

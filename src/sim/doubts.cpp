@@ -201,6 +201,7 @@ std::span<const Name> doubt_names() {
   static constexpr Name names[] = {{"energy", "the method makes or loses some"},
                                    {"constraint", "they are missed"},
                                    {"step", "it is too long for the motion"},
+                                   {"accuracy", "what method: auto promises ends before the run"},
                                    {"rank", "constraints depend on each other at an instant"},
                                    {"events", "they come and go faster than a run is looked at"},
                                    {"samples", "more happens between the frames than they show"},

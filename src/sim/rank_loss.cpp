@@ -52,15 +52,12 @@ class RowStrengths {
     largest_ = *std::max_element(strengths_.begin(), strengths_.end());
   }
 
-  // The pose of the first sample, or of an instant behind it on the cubic to the next, that lies below the limit.
-  std::optional<RankLoss> first_loss() {
-    for (const int k : minima()) {
-      if (at(k) < kDependentRows * largest_) return RankLoss{trajectory_.t[std::size_t(k)], at(k) / largest_};
-      for (const int before : {k - 1, k})
-        if (before >= 0 && before + 1 < size())
-          if (const auto found = loss_between(before)) return found;
-    }
-    return {};
+  // The poses of samples, or of instants between them on the cubic through both, that lie below the limit.
+  std::vector<RankLoss> losses() {
+    std::vector<RankLoss> found;
+    for (const int k : minima())
+      if (const auto loss = loss_about(k); loss && (found.empty() || loss->t > found.back().t)) found.push_back(*loss);
+    return found;
   }
 
   // Instants near together about each sample at which such a pose may be near: what changes as fast there as from sample to sample could reach zero.
@@ -78,6 +75,14 @@ class RowStrengths {
  private:
   int size() const { return int(strengths_.size()); }
   double at(int k) const { return strengths_[std::size_t(k)]; }
+
+  std::optional<RankLoss> loss_about(int k) {
+    if (at(k) < kDependentRows * largest_) return RankLoss{trajectory_.t[std::size_t(k)], at(k) / largest_};
+    for (const int before : {k - 1, k})
+      if (before >= 0 && before + 1 < size())
+        if (const auto found = loss_between(before)) return found;
+    return {};
+  }
 
   // Samples that are weaker than those beside them, the weakest of many.
   std::vector<int> minima() const {
@@ -169,7 +174,7 @@ std::vector<double> instants_near_enough(const Simulation& simulation, const Tra
 
 }  // namespace
 
-std::optional<RankLoss> rank_loss_of(const Simulation& simulation, const Trajectory& trajectory) {
+std::vector<RankLoss> rank_losses_of(const Simulation& simulation, const Trajectory& trajectory) {
   if (trajectory.rows == 0 || trajectory.size() < 2) return {};
   // Rows of coordinates alone are the same at every pose.
   const auto is_of_coordinates = [](const Constraint& one) { return std::holds_alternative<JointConstraint>(one) || std::holds_alternative<LinearConstraint>(one); };
@@ -185,16 +190,20 @@ std::optional<RankLoss> rank_loss_of(const Simulation& simulation, const Traject
   std::vector<double> times = RowStrengths(simulation, near.empty() ? trajectory : denser).instants_about_minima();
   if (times.empty()) return {};
   // A cubic through samples is none of a motion that turned another way between them: that is seen in the run itself.
-  return RowStrengths(simulation, seen_at(std::move(times))).first_loss();
+  return RowStrengths(simulation, seen_at(std::move(times))).losses();
 }
 
 std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajectory& trajectory) {
-  const std::optional<RankLoss> loss = rank_loss_of(simulation, trajectory);
-  if (!loss) return {};
-  const double before = loss->t * (1 - kSpared), digit = before > 0 ? std::pow(10, std::floor(std::log10(before)) - 2) : 1;
+  const std::vector<RankLoss> losses = rank_losses_of(simulation, trajectory);
+  if (losses.empty()) return {};
+  constexpr std::size_t kTold = 4;
+  std::string when;
+  for (std::size_t k = 0; k < std::min(losses.size(), kTold); ++k) when += (k == 0 ? "" : k + 1 == losses.size() ? " and " : ", ") + format_significant(losses[k].t, 4);
+  if (losses.size() > kTold) when += " and " + std::to_string(losses.size() - kTold) + " times more until " + format_significant(losses.back().t, 4);
+  const double before = losses.front().t * (1 - kSpared), digit = before > 0 ? std::pow(10, std::floor(std::log10(before)) - 2) : 1;
   const double end = std::floor(before / digit) * digit;  // three digits
-  return Doubt{"rank", loss->part,
-               "at t = " + format_significant(loss->t, 4) + " s constraints that are independent elsewhere depend on each other, as of links in one line: which way "
+  return Doubt{"rank", losses.front().part,
+               "at t = " + when + " s constraints that are independent elsewhere depend on each other, as of links in one line: which way "
                "the motion goes on there, and lambda, the equations do not say",
                end > 0 ? "--set duration=" + format_significant(end, 3) + ", which ends before it" : "a start away from it"};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sim/doubts.hpp"
 #include "sim/simulate.hpp"
@@ -19,8 +20,8 @@ struct RankLoss {
 
 // Of G = Jc M^-1 Jc^T, its rows each divided by the largest size it has in the run: the root of the smallest of those eigenvalues that are not zero
 // throughout, which is linear in the distance from such a pose. Between samples it is sought on the cubic through both.
-// The first pose with a part below kDependentRows, where there is one.
-std::optional<RankLoss> rank_loss_of(const Simulation& simulation, const Trajectory& trajectory);
+// The poses with a part below kDependentRows in the order of time, one each time that the run passes there.
+std::vector<RankLoss> rank_losses_of(const Simulation& simulation, const Trajectory& trajectory);
 
 // Its remedy is typed as it stands, but where the run starts there.
 std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajectory& trajectory);

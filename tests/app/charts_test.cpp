@@ -72,9 +72,31 @@ TEST(ChartCommand, WarnsWhereTheRunEndsAtRest) {
     const Json json = Json::parse(result.out);
     return std::pair{result.err, json.at("warnings").size()};
   };
-  EXPECT_THAT(warned({}), testing::Pair(HasSubstr("the run ends at rest"), 1u));
-  EXPECT_THAT(warned({"--set", "duration=0.05"}), testing::Pair(Not(HasSubstr("at rest")), 0u));
+  EXPECT_THAT(warned({"--error", "final"}), testing::Pair(HasSubstr("the run ends at rest"), 1u));
+  EXPECT_THAT(warned({"--error", "final", "--set", "duration=0.05"}), testing::Pair(Not(HasSubstr("at rest")), 0u));
+  EXPECT_THAT(warned({}), testing::Pair(Not(HasSubstr("at rest")), 0u)) << "the way is judged";
   EXPECT_THAT(warned({"--error", "energy"}), testing::Pair(Not(HasSubstr("at rest")), 0u));
+}
+
+// By default the largest error along the run is judged: of what comes to rest, errors at the end call the coarsest step exact.
+TEST(ChartCommand, JudgesTheWay) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: {links: [0.5], masses: [1], joints: R}\nstart: {q: [1], qd: [2]}\ngravity: [0, 0, 0]\n"
+                                                   "torque: [-20 * q1 - 10 * qd1]\nduration: 4\n");
+  const auto cheapest_for = [&](const std::string& error) {
+    const ProgramResult result = run_program({"chart", scene, "--methods", "rk4", "--runs", "1", "--longest", "5ms", "--error", error, "--reach", "1e-6", "--force", "-o", folder.file("c.csv")});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const std::size_t at = result.out.find("h = ");
+    EXPECT_NE(at, std::string::npos) << result.out;
+    return std::stod(result.out.substr(at + 4));
+  };
+  const double way = cheapest_for("way"), final = cheapest_for("final");
+  EXPECT_LT(way, final);
+  const Csv csv(read_whole_file(folder.file("c.csv")));
+  for (const auto& row : csv.rows) {
+    if (row.at("status") != "finished") continue;
+    EXPECT_GE(number(row.at("way_error")), number(row.at("error"))) << row.at("step");
+  }
 }
 
 TEST(MethodsCommand, ListsEveryRowOfTheRegistry) {

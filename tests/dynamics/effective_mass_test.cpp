@@ -90,14 +90,18 @@ TEST(EffectiveMassTest, GrowsWithTheInverseSquareOfTheDistanceToASingularPose) {
   EXPECT_NEAR(largest(0.005) / largest(0.01), 4, 0.01);
 }
 
+// The fraction is about the square of the angle in rad. Lambda's larger eigenvalue is 1 / mobility ~ c / eps^2, with the same c for all small eps.
 TEST(EffectiveMassTest, IsSingularBelowTheStatedFraction) {
-  EXPECT_TRUE(rr_effective_mass(rr_chain(), 1.0).Lambda);
-  // The fraction is about the square of the angle in rad: at 1.7e-4 rad Lambda is known to some seven digits, and not infinite.
-  const std::optional<Eigen::MatrixXd> far = rr_effective_mass(rr_chain(), 0.01).Lambda;
-  ASSERT_TRUE(far);
-  EXPECT_NEAR(far->norm() / rr_effective_mass(rr_chain(), 0.02).Lambda->norm(), 4, 1e-3);
-  EXPECT_FALSE(rr_effective_mass(rr_chain(), 1e-4).Lambda);
-  const EffectiveMass near = rr_effective_mass(rr_chain(), 1e-4);
+  const auto scaled = [](double eps) {
+    const std::optional<Eigen::MatrixXd> Lambda = rr_effective_mass(rr_chain(), eps / kDegree).Lambda;
+    return Lambda ? Lambda->norm() * eps * eps : -1;
+  };
+  const double c = scaled(1e-3);
+  EXPECT_GT(c, 0);
+  // Square J: nothing is lost to its condition but rounding / eps, and O(eps) of the law itself.
+  for (const double eps : {1e-4, 1e-5, 1e-6}) EXPECT_NEAR(scaled(eps) / c, 1, 1e-2) << eps;
+  EXPECT_EQ(scaled(1e-8), -1);
+  const EffectiveMass near = rr_effective_mass(rr_chain(), 1e-8 / kDegree);
   ASSERT_EQ(near.singular_directions.size(), 1u);
   EXPECT_GT(near.singular_directions[0](0), 0.99999);
 }

@@ -9,6 +9,7 @@
 
 #include "model/link_chain.hpp"
 #include "model/read_chain.hpp"
+#include "sim/rank_loss.hpp"
 #include "sim/runs.hpp"
 #include "sim/system/constrained_chain.hpp"
 #include "support/chains.hpp"
@@ -180,6 +181,32 @@ TEST(Doubts, FindAPoseWhereTheWayOnIsOpen) {
     EXPECT_THAT(kinds(loop(method, step, 0.735, 2)), ::testing::Not(::testing::Contains("rank"))) << method;
   }
   EXPECT_THAT(kinds(loop("dop853", 0, 0.7 + 1e-5, 2)), ::testing::Not(::testing::Contains("rank"))) << "it turns round 5 mrad before";
+}
+
+// The parallelogram started in its change point is a pendulum of one freedom, q'' = -22.0725 cos q for links of (0.3, 0.5, 0.3, 0.5) m: it passes that pose
+// again, and every passage is told.
+TEST(Doubts, TellEveryPassageOfSuchAPose) {
+  Simulation run = run_of("four_bar_parallel", {}, 1, "rk4", 1e-3);
+  run.constraints.list = {CloseConstraint{"rocker_end", "ground_pin"}};
+  run.q0 = {0, 0, -3.14159265358979312};
+  run.qd0 = {2, -2, 2};
+  ConstrainedChain chain(run.chain, run.constraints);
+  Workspace ws(run.chain);
+  chain.project(ws, run.q0, run.qd0);
+  const Trajectory trajectory = simulate(run, instants(1, 1.0 / 60));
+  std::vector<double> passed;  // where the crank lies on the ground's line
+  const Trajectory dense = simulate(run, instants(1, 1e-4));
+  for (int k = 1; k < dense.size(); ++k)
+    if (std::sin(dense.q_at(k - 1)[0]) * std::sin(dense.q_at(k)[0]) < 0) passed.push_back(dense.t[std::size_t(k)]);
+  ASSERT_GE(passed.size(), 2u);
+  const std::vector<RankLoss> losses = rank_losses_of(run, trajectory);
+  ASSERT_EQ(losses.size(), passed.size() + 1) << "and the start";
+  EXPECT_EQ(losses[0].t, 0);
+  for (std::size_t k = 0; k < passed.size(); ++k) EXPECT_NEAR(losses[k + 1].t, passed[k], 1e-3);  // the pose is left by a thousandth
+  const std::optional<Doubt> doubt = doubt_of_rank(run, trajectory);
+  ASSERT_TRUE(doubt);
+  EXPECT_THAT(doubt->words, HasSubstr("at t = 0, "));
+  EXPECT_THAT(doubt->words, HasSubstr(" and "));
 }
 
 // However far apart its samples are, and however often it is there: the first instant is told.

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -26,8 +27,13 @@
 namespace chainreel {
 namespace {
 
-// A run that is off by so many times the size of the motion's end, at least 1 rad or m, is lost, however far it is off.
+// A run that is off by so many times the size of the motion, at least 1 rad or m, is lost, however far it is off.
 constexpr double kLost = 100;
+// And one that is off by more than this share of it is no answer that could be cheap.
+constexpr double kAnswer = 0.1;
+
+constexpr std::array kErrors = {"way", "final", "energy"};  // in the order of Judged, as their keys
+constexpr std::array kJudgedKeys = {"way_error", "error", "energy_error"};
 
 struct ChartOptions {
   std::string scene;
@@ -35,16 +41,18 @@ struct ChartOptions {
   std::string highlight;
   int runs = 5;
   std::string longest = "100ms";
-  std::string error = "final";  // or energy
-  bool judges_energy() const { return error == "energy"; }
+  std::string error = "way";  // of kErrors
   std::string reach = "1e-3,1e-6,1e-9";  // errors that the printed table is for
   int panel = 0;  // from 1; 0: the motion that all share
   FigureOptions figure;
   CommonOptions common;
+
+  Judged judged() const { return Judged(std::ranges::find(kErrors, error) - kErrors.begin()); }
+  bool judges_energy() const { return judged() == Judged::energy; }
 };
 
 struct Measured {
-  EndReference reference;
+  LadderReference reference;
   std::vector<Ladder> ladders;
   std::optional<Choice> choice;
   Accuracy accuracy;
@@ -55,15 +63,14 @@ bool stop_asked(double) {
 }
 
 // The setting that `auto` takes becomes a rung of its method's ladder, unless it is one already.
-int add_choice(Simulation& simulation, const Measured& measured, Ladder& ladder, int runs) {
+int add_choice(Simulation& simulation, const Measured& measured, Ladder& ladder, const ChartOptions& options) {
   const MethodSetting& setting = measured.choice->best.setting;
   auto& rungs = ladder.rungs;
   for (std::size_t k = 0; k < rungs.size(); ++k)
     if (to_string(rungs[k].setting) == to_string(setting)) return int(k);
-  const EndState& end = measured.reference.state;
-  Rung rung = measure(simulation, setting, end, runs, stop_asked);
-  const auto place =
-      std::find_if(rungs.begin(), rungs.end(), [&](const Rung& one) { return one.error < rung.error; });
+  const Rung rung = measure(simulation, setting, measured.reference.run, options.runs, stop_asked);
+  const double error = judged_error(rung, options.judged());
+  const auto place = std::find_if(rungs.begin(), rungs.end(), [&](const Rung& one) { return judged_error(one, options.judged()) < error; });
   return int(rungs.insert(place, rung) - rungs.begin());
 }
 
@@ -80,16 +87,15 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
     // It takes seconds and cannot be asked how far it is.
     Ticker ticker(options.common.quiet);
     if (!options.common.quiet && isatty(STDERR_FILENO) != 0) ticker.say(prepared.scene.name + ": computing the reference");
-    measured.reference = end_reference(simulation);
+    measured.reference = find_reference_run(simulation);
   }
   LadderOptions ladder;
   ladder.runs = options.runs;
-  ladder.judges_energy = options.judges_energy();
+  ladder.judged = options.judged();
   ladder.longest_run = parse_positive_seconds(options.longest, "--longest", "100ms");
-  const EndState& end = measured.reference.state;
   WorkTicker ticker(prepared.scene.name + ": measuring", options.common.quiet);
   for (const Method* method : chosen) {
-    measured.ladders.push_back(climb(simulation, *method, end, ladder, [&](double) {
+    measured.ladders.push_back(climb(simulation, *method, measured.reference.run, ladder, [&](double) {
       ticker.tell(double(measured.ladders.size()) / double(chosen.size()), method->name);
       return interrupted();
     }));
@@ -98,10 +104,12 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   return measured;
 }
 
-// What the error of a rung is: "the larger of q's and 0.13 s times qd's"
-std::string scale_text(const Measured& measured) {
-  return "the larger of q's and " + format_significant(measured.reference.state.qd_scale, 2) +
-         " s \u00D7 qd's";
+// What the error of a rung is: "the larger of q's and 0.13 s times qd's, the largest along the run"
+std::string error_text(const Measured& measured, Judged judged) {
+  if (judged == Judged::energy) return "of the energy, the largest at the end of any step";
+  const std::string larger = "the larger of q's and " + format_significant(measured.reference.run.qd_scale, 2) + " s \u00D7 qd's";
+  if (judged == Judged::final) return larger + ", at the end of the run";
+  return larger + ", the largest at " + std::to_string(measured.reference.run.t.size()) + " instants along the run";
 }
 
 WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOptions& options) {
@@ -109,30 +117,34 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
   data.title = "Speed against accuracy";
   data.subtitle = title_over_runs(prepared.scene) + ", " +
                   format_shortest(prepared.simulation.duration) + " s; reference: " + measured.reference.how;
+  const Judged judged = options.judged();
   const bool is_of_energy = options.judges_energy();
-  data.error_title = is_of_energy ? "largest energy error [J]" : with_joint_units("final error", prepared.simulation.chain, "rad", "m");
-  data.error_meaning = is_of_energy ? "error: of the energy, the largest at the end of any step" : "error: " + scale_text(measured);
+  data.error_title = is_of_energy ? "largest energy error [J]"
+                                  : with_joint_units(judged == Judged::way ? "largest error" : "final error", prepared.simulation.chain, "rad", "m");
+  data.error_meaning = "error: " + error_text(measured, judged);
   if (!is_of_energy) {
     data.floor = measured.reference.amplification * 0x1p-53;
-    data.reference_uncertainty = measured.reference.uncertainty;
+    data.reference_uncertainty = judged == Judged::way ? measured.reference.uncertainty : measured.reference.final_uncertainty;
   }
   data.machine = machine_line();
   double farthest = 1;  // rad or m
-  for (const double q : measured.reference.state.q) farthest = std::max(farthest, std::abs(q));
+  for (const double q : measured.reference.run.q) farthest = std::max(farthest, std::abs(q));
   const double lost = kLost * farthest;
+  if (!is_of_energy) data.largest_answer = kAnswer * farthest;
   for (Ladder& ladder : measured.ladders) {
     if (ladder.rungs.empty()) continue;
     const bool chosen = ladder.method == measured.choice->best.setting.method;
     if (chosen)
-      data.choice = {ladder.method->name, add_choice(prepared.simulation, measured, ladder, options.runs)};
+      data.choice = {ladder.method->name, add_choice(prepared.simulation, measured, ladder, options)};
     ChartCurve curve;
     curve.method = ladder.method->name;
     curve.title = ladder.method->title;
     curve.order = ladder.method->adaptive ? 0 : ladder.method->order;
     curve.look = int(ladder.method - methods().data());
     for (const Rung& rung : ladder.rungs) {
-      const bool is_lost = !std::isfinite(rung.error) || (!is_of_energy && rung.error > lost);
-      curve.points.push_back({is_of_energy ? rung.energy_error : rung.error, rung.seconds, double(rung.evaluations), is_lost, to_string(rung.setting)});
+      const double error = judged_error(rung, judged);
+      const bool is_lost = !std::isfinite(rung.final.size) || (!is_of_energy && error > lost);
+      curve.points.push_back({error, rung.seconds, double(rung.evaluations), is_lost, to_string(rung.setting)});
     }
     data.curves.push_back(curve);
   }
@@ -143,16 +155,21 @@ std::string number_or_empty(double value) {
   return std::isfinite(value) ? format_shortest(value) : "";
 }
 
+std::string columns_of(const StateError& error) {
+  return number_or_empty(error.size) + "," + number_or_empty(error.q) + "," + number_or_empty(error.qd);
+}
+
 std::string csv_of(const std::string& scene, const Measured& measured) {
   std::string text = csv_facts(scene);
   text += "# reference: " + measured.reference.how + ", uncertainty " +
           format_significant(measured.reference.uncertainty, 2) +
           "\n# amplification: " + format_significant(measured.reference.amplification, 3) +
-          "\n# error: the larger of error_q and error_qd x " +
-          format_significant(measured.reference.state.qd_scale, 6) + " s, at the end of the run; energy_error: the largest at the end of any step\n";
+          "\n# error: the larger of error_q and error_qd x " + format_significant(measured.reference.run.qd_scale, 6) +
+          " s, at the end of the run; way_error, of way_q and way_qd: the largest at " + std::to_string(measured.reference.run.t.size()) +
+          " instants along the run, of fixed steps at those at which one ends; energy_error: the largest at the end of any step\n";
   text +=
-      "method,order,step [s],tolerance,runs,median_seconds [s],steps,evaluations,error,error_q,error_qd,energy_error [J],"
-      "status\n";
+      "method,order,step [s],tolerance,runs,median_seconds [s],steps,evaluations,error,error_q,error_qd,"
+      "way_error,way_q,way_qd,energy_error [J],status\n";
   for (const Ladder& ladder : measured.ladders)
     for (const Rung& rung : ladder.rungs) {
       const MethodSetting& setting = rung.setting;
@@ -162,8 +179,7 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
               (setting.options.tolerance > 0 ? format_shortest(setting.options.tolerance) : "") + "," +
               std::to_string(rung.runs) + "," + format_significant(rung.seconds, 4) + "," +
               std::to_string(rung.steps) + "," + std::to_string(rung.evaluations) + "," +
-              number_or_empty(rung.error) + "," + number_or_empty(rung.error_q) + "," +
-              number_or_empty(rung.error_qd) + "," + number_or_empty(rung.energy_error) + "," +
+              columns_of(rung.final) + "," + columns_of(rung.way) + "," + number_or_empty(rung.energy_error) + "," +
               to_string(rung.status) + "\n";
     }
   return text;
@@ -208,14 +224,9 @@ void print_summary(const WorkPrecision& data, const Measured& measured, const Ch
                 data.is_least_of_reference() ? "to which the reference is known" : "to which the motion magnifies one rounding");
   for (const Ladder& ladder : measured.ladders)
     if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
-  if (options.judges_energy())
-    std::printf("error: of the energy, the largest at the end of any step\n");
-  else
-    std::printf("error: at the end of the run, %s; how far each method strays on the way there, in the unit of `accuracy`: `chainreel check SCENE --all`; "
-                "by the energy: --error energy\n",
-                scale_text(measured).c_str());
+  std::printf("error: %s; of the pictures of a film, in the unit of `accuracy`: `chainreel check SCENE --all`\n", error_text(measured, options.judged()).c_str());
   std::printf("reference: %s, uncertainty %s; the motion magnifies errors %s times\n",
-              measured.reference.how.c_str(), format_significant(measured.reference.uncertainty, 2).c_str(),
+              measured.reference.how.c_str(), format_significant(options.judged() == Judged::final ? measured.reference.final_uncertainty : measured.reference.uncertainty, 2).c_str(),
               format_significant(measured.reference.amplification, 2).c_str());
   std::printf("%s\n", choice_text(*measured.choice, measured.accuracy).c_str());
 }
@@ -227,10 +238,10 @@ Json json_of(const std::string& scene, const Measured& measured, const ChartOpti
              {{"how", measured.reference.how},
               {"uncertainty", measured.reference.uncertainty},
               {"amplification", measured.reference.amplification}}},
-            {"error", "the larger of error_q and error_qd x qd_scale"},
-            {"judged", options.judges_energy() ? "energy_error" : "error"},
-            {"qd_scale", measured.reference.state.qd_scale},
-            {"units", {{"error", "rad or m"}, {"error_q", "rad or m"}, {"error_qd", "rad/s or m/s"}, {"energy_error", "J"}, {"qd_scale", "s"}, {"step", "s"}}},
+            {"error", "the larger of error_q and error_qd x qd_scale, at the end of the run; way_error, of way_q and way_qd: the largest along it"},
+            {"judged", kJudgedKeys[std::size_t(options.judged())]},
+            {"qd_scale", measured.reference.run.qd_scale},
+            {"units", {{"error", "rad or m"}, {"error_q", "rad or m"}, {"error_qd", "rad/s or m/s"}, {"way_error", "rad or m"}, {"way_q", "rad or m"}, {"way_qd", "rad/s or m/s"}, {"energy_error", "J"}, {"qd_scale", "s"}, {"step", "s"}}},
             {"choice", choice_report(*measured.choice, measured.accuracy, false)},
             {"methods", Json::array()},
             {"left_out", Json::array()}};
@@ -245,9 +256,12 @@ Json json_of(const std::string& scene, const Measured& measured, const ChartOpti
                        {"median_seconds", rung.seconds},
                        {"steps", rung.steps},
                        {"evaluations", rung.evaluations},
-                       {"error", rung.error},
-                       {"error_q", rung.error_q},
-                       {"error_qd", rung.error_qd},
+                       {"error", rung.final.size},
+                       {"error_q", rung.final.q},
+                       {"error_qd", rung.final.qd},
+                       {"way_error", rung.way.size},
+                       {"way_q", rung.way.q},
+                       {"way_qd", rung.way.qd},
                        {"energy_error", rung.energy_error},
                        {"status", to_string(rung.status)}});
     if (ladder.refusal.empty()) json["methods"].push_back({{"method", ladder.method->name}, {"rungs", rungs}});
@@ -292,8 +306,8 @@ std::string doubt_of_end(Simulation& simulation) {
   double largest = 0;
   for (int k = 0; k < run.size(); ++k) largest = std::max(largest, rate_at(k));
   if (!(largest > 0) || rate_at(run.size() - 1) > kAtRest * largest) return "";
-  return "the run ends at rest, where errors of the way there are forgotten: the chart says nothing of that way; take a shorter duration, "
-         "--error energy, or `chainreel check SCENE --all`, which judges the way";
+  return "the run ends at rest, where errors of the way there are forgotten: the chart says nothing of that way; take --error way, --error energy, "
+         "or a shorter duration";
 }
 
 void run_chart(const ChartOptions& options) {
@@ -304,7 +318,7 @@ void run_chart(const ChartOptions& options) {
   PreparedScene prepared = load_motion(options.scene, overrides_of(options.common), options.panel, options.common.quiet);
   require_computed_run(prepared.scene, "chart");
   FigureFiles files(options.figure, "out/" + prepared.scene.name + "_chart.png", options.common.force);
-  const std::string doubt = options.judges_energy() ? "" : doubt_of_end(prepared.simulation);
+  const std::string doubt = options.judged() == Judged::final ? doubt_of_end(prepared.simulation) : "";
   if (!doubt.empty()) tell_warnings({prepared.scene.name + ": " + doubt});
   Measured measured = measure_all(prepared, chosen, options);
   WorkPrecision data = data_of(prepared, measured, options);
@@ -340,8 +354,8 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
   command->add_option("--longest", options->longest, "finer rungs whose runs would take longer by the table of costs are left out; one may take twice as long: 100ms")
       .show_default();
-  command->add_option("--error", options->error, "what the chart judges: final (q and qd at the end) or energy (the largest along the run, J)")
-      .one_of({"final", "energy"});
+  command->add_option("--error", options->error, "what the chart judges: way (the largest of q and qd along the run, the default), final (at its end) or energy (the largest along the run, J)")
+      .one_of({kErrors.begin(), kErrors.end()});
   add_panel_option(*command, options->panel);
   add_figure_options(*command, options->figure, options->common, "out/NAME_chart.png");
   add_scene_options(*command, options->common);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
@@ -82,9 +83,9 @@ std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const PeaksAsk
   return named(names_of_peaks(simulation, peaks), found.peaks);
 }
 
-// A panel's run as files.
+// A panel's run as files. What it ended with where it should not have is thrown; with --json it is put into `trouble`, and all that is known is told before.
 Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, TableFiles& files,
-                    const Wanted& wanted, const SimulateOptions& options, bool alone) {
+                    const Wanted& wanted, const SimulateOptions& options, bool alone, std::optional<Error>& trouble) {
   say_choice(prepared, options.common.quiet);
   const Trajectory trajectory = run_scene(film, prepared, options);
   throw_if_interrupted();
@@ -94,8 +95,15 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
     files.write(table);
   else
     files.write_partial(table);
-  require_expected_end(trajectory, prepared.scene);
-  const std::vector<NamedPeak> peaks = peaks_of_run(prepared.simulation, wanted.peaks);
+  try {
+    require_expected_end(trajectory, prepared.scene);
+  } catch (const Error& error) {
+    throw_if_interrupted();
+    if (!options.common.json) throw;
+    if (!trouble) trouble = error;
+  }
+  const bool has_peaks = is_complete(trajectory.status);  // what a run grows to that is lost is no peak
+  const std::vector<NamedPeak> peaks = has_peaks ? peaks_of_run(prepared.simulation, wanted.peaks) : std::vector<NamedPeak>{};
   const RunReport run = run_report(prepared, trajectory);
   const std::string name = prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'");
   tell_warnings(warning_lines(name, run));
@@ -126,6 +134,19 @@ void tighten(Scene& scene) {
   for (Scene& panel : scene.compare) tighten(panel);
 }
 
+// A run's report, or those of all panels.
+void print_reports(const Scene& scene, Json& reports, bool alone) {
+  if (alone) return print_json(reports.front());
+  std::vector<std::string> written;
+  for (Json& panel : reports) {
+    for (const Json& file : panel["files"]) written.push_back(file.get<std::string>());
+    panel.erase("panels");
+  }
+  Json all{{"scene", scene.file}, {"title", scene.title}, {"duration", scene.duration}, {"panels", reports}};
+  all.update(files_json(written));
+  print_json(all);
+}
+
 void run_simulate(const SimulateOptions& options) {
   if (options.every_step && !options.every.empty()) throw Error(ExitCode::usage, "--every gives rows at instants, --every-step at the method's steps: take one of them");
   Scene scene = read_scene(options.scene, overrides_of(options.common));
@@ -149,25 +170,19 @@ void run_simulate(const SimulateOptions& options) {
     require_peaks(film.panels[i].simulation, wanted.peaks, "--peaks");
   }
   Json reports = Json::array();
+  std::optional<Error> trouble;
   TableRecords records(*options.command, options.common.force);
   for (const std::size_t i : chosen) {
     std::vector<std::string> paths;
     for (const std::string& output : outputs) paths.push_back(panel_table_path(output, i, alone));
     TableFiles files(paths, options.common);
     records.open(paths, outputs);
-    reports.push_back(simulate_panel(film, film.panels[i], files, wanted, options, alone));
-    records.write();
+    reports.push_back(simulate_panel(film, film.panels[i], files, wanted, options, alone, trouble));
+    if (!trouble) records.write();
   }
   if (!options.common.json) return;
-  if (alone) return print_json(reports.front());
-  std::vector<std::string> written;
-  for (Json& panel : reports) {
-    for (const Json& file : panel["files"]) written.push_back(file.get<std::string>());
-    panel.erase("panels");
-  }
-  Json all{{"scene", film.scene.file}, {"title", film.scene.title}, {"duration", film.scene.duration}, {"panels", reports}};
-  all.update(files_json(written));
-  print_json(all);
+  print_reports(film.scene, reports, alone);
+  if (trouble) throw Error(*trouble);
 }
 
 }  // namespace

@@ -136,6 +136,18 @@ std::string choice_text(const Choice& choice, const Accuracy& accuracy) {
   return text;
 }
 
+std::optional<Doubt> doubt_of_choice(const Choice& choice, const Accuracy& accuracy, double end) {
+  if (!choice.is_met)
+    return Doubt{"accuracy", choice.best.error, "method: auto found none that keeps " + to_string(accuracy) + " here, as `chainreel check` tells in full",
+                 std::isfinite(choice.best.error) ? "--set accuracy='" + format_significant(2 * choice.best.error, 1) + " " + to_string(accuracy.unit) + "', or a method by name"
+                                                  : "a method by name"};
+  if (!choice.holds_until || *choice.holds_until >= end) return {};
+  const double until = *choice.holds_until, digit = until > 0 ? std::pow(10, std::floor(std::log10(until)) - 2) : 1;
+  return Doubt{"accuracy", until / end,
+               "method: auto promises " + to_string(accuracy) + " until t = " + format_significant(until, 4) + " s alone, as `chainreel check` tells in full",
+               until > 0 ? "--set duration=" + format_significant(std::floor(until / digit) * digit, 3) : "a method by name"};
+}
+
 namespace {
 
 std::vector<std::string> lines_of(std::span<const PreparedScene> panels, std::vector<std::string> Scene::*words) {

@@ -1,12 +1,14 @@
 // `method: auto` at work, and what it says about its choice.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/film/prepared.hpp"
 #include "core/json.hpp"
+#include "sim/doubts.hpp"
 
 namespace chainreel {
 
@@ -19,6 +21,8 @@ Choice choose_with_progress(Simulation& simulation, const Scene& scene, std::spa
 
 // One sentence: the choice, a bound of its error and its price; until when that holds, and what happens there.
 std::string choice_text(const Choice& choice, const Accuracy& accuracy);
+// That of a run until `end`, s, less is promised than was asked for.
+std::optional<Doubt> doubt_of_choice(const Choice& choice, const Accuracy& accuracy, double end);
 
 // "NAME: what speaks against the scene", and what was changed of it when it was made ready; what several panels say, once.
 std::vector<std::string> doubt_lines(std::span<const PreparedScene> panels);

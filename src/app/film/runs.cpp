@@ -190,6 +190,8 @@ std::string remedy_of(const Trajectory& trajectory, const Scene& scene) {
   if (scene.motion) return "";
   if (trajectory.status == RunStatus::torque_not_finite && scene.control && scene.control->function)
     return ": " + scene.control->function->words + " must give finite numbers, N m or N, wherever q and qd are finite";
+  if (trajectory.status == RunStatus::inconsistent && trajectory.end_time <= 0)
+    return ": the rates of the start lead off the constraints, as where ways cross. Name fewer of them, `start: {qd: {joint: 1}}`, so that the others follow, or start elsewhere";
   return ": try a smaller step or another method";
 }
 
@@ -205,7 +207,11 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
   }
   if (is_complete(trajectory.status)) {
     if (scene.expect != Outcome::within_limits || trajectory.limits.empty()) return;
-    throw Error(ExitCode::limit, to_string(trajectory.limits.front()) + ", and `expect: within_limits` stands there", scene.place_of("expect"));
+    constexpr std::size_t kTold = 4;
+    std::string limits;
+    for (std::size_t i = 0; i < std::min(trajectory.limits.size(), kTold); ++i) limits += (i == 0 ? "" : "; ") + to_string(trajectory.limits[i]);
+    if (trajectory.limits.size() > kTold) limits += "; and " + std::to_string(trajectory.limits.size() - kTold) + " more";
+    throw Error(ExitCode::limit, limits + ": `expect: within_limits` stands there", scene.place_of("expect"));
   }
   throw Error(ExitCode::numerical,
               trajectory.trouble + " with " + method_text(scene) + remedy_of(trajectory, scene),

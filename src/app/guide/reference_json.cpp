@@ -16,7 +16,7 @@ const Keys kRun{
     {"model_sha256", "of the URDF"},
     {"model_elements_sha256", "of what the URDF says, without comments and line breaks"},
     {"status", "finished, stopped, diverged, .."},
-    {"expect", "what the scene expects: finish or diverge"},
+    {"expect", "what the scene expects: finish, diverge or within_limits"},
     {"trouble", "why it ended early, in words; or null"},
     {"method, step, tolerance, order", "of the integrator; what it has none of is null"},
     {"auto", "how `method: auto` chose it; or null"},

@@ -173,8 +173,8 @@ std::string constraints_page() {
       "motion, three are world x y z. The equations tau = M qdd + nle + J_c^T lambda are solved where rows repeat each other,\n"
       "too: lambda is what the robot presses on its ties with, along a row's direction. That of a line in the plane is the normal to the\n"
       "left of `direction` (for [1, 0] it is +y), of a plane its `normal`, of places the axes. A start that names some joints alone,\n"
-      "`start: {q: {crank: 60deg}, qd: {crank: 6}}`, lets the others follow, put together in the same way all round; a joint named behind\n"
-      "those that are free says about where it is, for another way: `{crank: 60deg, coupler: -40deg}`. One that is a little beside is moved, and that is\n"
+      "`start: {q: {crank_joint: 60deg}, qd: {crank_joint: 6}}`, lets the others follow, put together in the same way all round; a joint named behind\n"
+      "those that are free says about where it is, for another way: `{crank_joint: 60deg, crank_pin: -40deg}`. One that is a little beside is moved, and that is\n"
       "said; one out of reach is refused with the distance.\n";
   for (const KeyText& alternative : find_key("constraints")->parts[0].parts) {
     const KeyText& kind = alternative.parts[0];

@@ -224,7 +224,6 @@ std::vector<std::string> SceneRun::warnings() const {
     for (int panel = 0; panel < panels(); ++panel) {
       const PreparedScene& prepared = state_->film.panels[std::size_t(panel)];
       const std::string named = prepared.scene.name + (panels() > 1 ? ", '" + prepared.scene.title + "'" : "");
-      if (prepared.choice && (!prepared.choice->is_met || prepared.choice->holds_until)) lines.push_back(named + ": " + choice_text(*prepared.choice, prepared.scene.accuracy));
       for (const std::string& line : warning_lines(named, run_report(prepared, trajectory(panel)))) lines.push_back(line);
     }
     return lines;

@@ -28,7 +28,10 @@ namespace {
 std::vector<Doubt> warnings_of(const PreparedScene& prepared, const Trajectory& trajectory, const Audit& audit) {
   if (prepared.scene.expect == Outcome::diverge) return {};
   const auto chosen_by = prepared.choice ? std::optional(prepared.scene.accuracy) : std::nullopt;
-  return doubts_of(prepared.simulation, trajectory, audit, chosen_by);
+  std::vector<Doubt> doubts = doubts_of(prepared.simulation, trajectory, audit, chosen_by);
+  if (chosen_by && trajectory.size() > 0)
+    if (const auto doubt = doubt_of_choice(*prepared.choice, *chosen_by, trajectory.t.back())) doubts.push_back(*doubt);
+  return doubts;
 }
 
 // A remedy of one panel changes that panel: keys of the page stay as they are.

@@ -34,11 +34,13 @@ void SeenRows::look(const std::string& row) {
   if (comma >= row.size()) return;
   const std::lock_guard guard(lock_);
   if (row.find("," + csv_words(kDoubtful).substr(0, kDoubtful.size())) != std::string::npos) ++outcome_.doubtful;
-  if (row.find(kLimits, row.rfind(",\"")) != std::string::npos) ++outcome_.beyond_limits;
-  look_at_peaks(row, run, skip_cells(row, comma, kOfTheEnd + before_));
+  const bool is_beyond_limits = row.find(kLimits, row.rfind(",\"")) != std::string::npos;
+  outcome_.beyond_limits += is_beyond_limits ? 1 : 0;
+  look_at_events(row, skip_cells(row, look_at_peaks(row, run, skip_cells(row, comma, kOfTheEnd + before_)), behind_));
   // What the first that failed in the grid's order says is kept.
   if (row.compare(comma, 3, ",0,") != 0) return;
   ++outcome_.failed;
+  outcome_.failed_by_limits += is_beyond_limits ? 1 : 0;
   if (outcome_.failed > 1 && run > first_) return;
   first_ = run;
   const std::size_t quote = row.rfind(",\"");
@@ -46,7 +48,7 @@ void SeenRows::look(const std::string& row) {
                            (quote == std::string::npos ? row.substr(comma + 3) : row.substr(quote + 2, row.size() - quote - 3));
 }
 
-void SeenRows::look_at_peaks(const std::string& row, std::size_t run, std::size_t comma) {
+std::size_t SeenRows::look_at_peaks(const std::string& row, std::size_t run, std::size_t comma) {
   for (std::size_t i = 0; i < peaks_.size() && comma < row.size(); ++i) {
     const std::size_t end = end_of_cell(row, comma + 1);
     const std::optional<double> value = parse_number(std::string_view(row).substr(comma + 1, end - comma - 1));
@@ -60,6 +62,18 @@ void SeenRows::look_at_peaks(const std::string& row, std::size_t run, std::size_
     has_peak_[i] = true;
     largest = {peaks_[i], *value, run, largest.least, largest.count};
   }
+  return comma;
+}
+
+void SeenRows::look_at_events(const std::string& row, std::size_t comma) {
+  bool has_repeats = false;
+  for (std::size_t i = 0; i < events_ && comma < row.size(); ++i) {
+    const std::size_t before = skip_cells(row, comma, kCellsOfEvent - 1);
+    comma = end_of_cell(row, std::min(before + 1, row.size()));
+    const std::optional<double> times = parse_number(std::string_view(row).substr(std::min(before + 1, row.size()), comma - std::min(before + 1, comma)));
+    has_repeats |= times.value_or(0) > 1;
+  }
+  outcome_.with_repeats += has_repeats ? 1 : 0;
 }
 
 SweepOutcome SeenRows::outcome() const {

@@ -209,14 +209,22 @@ class RowMaker {
     for (const Peak& peak : peaks) row += "," + format_shortest(peak.value);
     for (std::size_t i = 0; i < job_.last.size(); ++i)
       row += "," + (run.size() > 0 ? format_shortest(plot_value(simulation, first_of_last(job_, simulation) + i, run, run.size() - 1)) : "");
-    std::vector<std::string> first(events_);
-    for (int k = run.events.size() - 1; k >= 0; --k)
-      first[std::size_t(run.events.event[std::size_t(k)])] = format_shortest(run.events.t[std::size_t(k)]);
-    for (const std::string& time : first) row += "," + time;
+    struct Times {
+      std::optional<double> first{}, last{};
+      int count = 0;
+    };
+    std::vector<Times> events(events_);
+    for (int k = 0; k < run.events.size(); ++k) {
+      Times& times = events[std::size_t(run.events.event[std::size_t(k)])];
+      times.last = run.events.t[std::size_t(k)];
+      if (times.count++ == 0) times.first = times.last;
+    }
+    for (const Times& times : events)
+      row += "," + (times.first ? format_shortest(*times.first) : "") + "," + (times.last ? format_shortest(*times.last) : "") + "," + std::to_string(times.count);
     return row + "," + (trouble.empty() ? "" : csv_words(trouble));
   }
   std::string failed_row(const std::string& why) const {
-    return ",0,refused,,," + no_state() + "," + std::string(peaks_ + job_.last.size() + events_, ',') + "," + csv_words(why);
+    return ",0,refused,,," + no_state() + "," + std::string(peaks_ + job_.last.size() + kCellsOfEvent * events_, ',') + "," + csv_words(why);
   }
   static std::string energy_at_end(const Simulation& simulation, const Trajectory& run) {
     Workspace ws(simulation.chain);
@@ -230,7 +238,7 @@ class RowMaker {
   SceneFile file_;
   LastChain last_;
   std::string states_;
-  std::size_t peaks_, events_;  // how many cells they have
+  std::size_t peaks_, events_;  // how many there are
   std::vector<std::string> known_;
 };
 
@@ -286,7 +294,10 @@ std::string head_of(const SweepTableJob& job, const Scene& first, const Chain& c
           ",energy [J]";
   for (const std::string& peak : peaks) head += ",peak_" + (one_model ? peak : ColumnName(peak).name);
   for (const std::string& expression : job.last) head += "," + (expression.find(',') == std::string::npos ? expression : csv_words(expression));
-  for (const EventEntry& event : first.events) head += "," + csv_words(event.title() + " [s]");
+  for (const EventEntry& event : first.events) {
+    const std::string title = event.title();
+    head += "," + csv_words(title + " [s]") + "," + csv_words("last_" + title + " [s]") + "," + csv_words("times_" + title);
+  }
   return head + ",trouble\n";
 }
 
@@ -349,7 +360,7 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
   Copies copies(job);
   GrowingTable table(path, head, std::size_t(job.runs.first),
                      std::size_t(job.runs.behind - job.runs.first), job.overwrite);
-  SeenRows seen(job.grid, peaks, std::size_t(std::count(states.begin(), states.end(), ',')) + 2);
+  SeenRows seen(job.grid, peaks, std::size_t(std::count(states.begin(), states.end(), ',')) + 2, job.last.size(), first.events.size());
   table.for_each_before([&](const std::string& row) { seen.look(row); });
   SweepOutcome outcome;
   outcome.skipped = table.rows_before();

@@ -1,4 +1,4 @@
-// What the runs of a grid come to, as a table: a row a run, with its last state and the first time of each event.
+// What the runs of a grid come to, as a table: a row a run, with its last state, the first and last time of each event and how often it happens.
 #pragma once
 
 #include <functional>

@@ -255,7 +255,7 @@ Today recorded_of_today(const AskedFilm& asked, const std::string& scene, const 
   for (const std::string& set : overrides_of(common)) made.words.insert(made.words.end(), {"--set", set});
   const Json now = inputs_today(made.words, made.files, asked.path);
   if (asked.audit.is_changed && !asked.is_gone) found.words.push_back("the file is not as it was written: `chainreel check " + asked.path + "`");
-  for (std::string& one : changed_inputs(asked.audit.json[kMadeBy].value(kInputs, Json()), now)) found.words.push_back(std::move(one));
+  for (std::string& one : changed_inputs(asked.audit.json[kMadeBy].value(kInputs, Json()), now, keys_without_numbers(made.words))) found.words.push_back(std::move(one));
   for (std::string& one : changed_poses({{"named_poses", made.named_poses}}, first)) found.words.push_back(std::move(one));
   found.again.command = words_behind_program(made.words, made.files, asked.path);
   // The table of a map is made without one.

@@ -88,12 +88,13 @@ void add_model_changes(const Json& before, const Json& now, std::vector<std::str
     if (std::find(words.begin(), words.end(), one) == words.end()) words.push_back(std::move(one));
 }
 
-std::vector<std::string> changes_of(const Json& before, const Json& now) {
+std::vector<std::string> changes_of(const Json& before, const Json& now, const std::vector<std::string>& without) {
   std::vector<std::string> words;
   if (word_of(before, "sha256") != word_of(now, "sha256")) words.emplace_back(kAnother);
   if (word_of(before, "scene") != word_of(now, "scene")) {
     words = explain_scene_texts(word_of(before, "scene"), word_of(now, "scene"));
     if (words.empty()) words.emplace_back("is another one");
+    std::erase_if(words, [&](const std::string& one) { return std::ranges::count(without, one.substr(0, one.find_first_of(" :"))) > 0; });
   }
   const Json models = before.value("models", Json::array()), tables = before.value("tables", Json::array());
   const Json models_now = now.value("models", Json::array()), tables_now = now.value("tables", Json::array());
@@ -126,12 +127,22 @@ bool are_known(const Json& inputs) {
   return inputs.is_array() && !inputs.empty() && std::none_of(inputs.begin(), inputs.end(), [](const Json& one) { return !one.is_object(); });
 }
 
-std::vector<std::string> changed_inputs(const Json& before, const Json& now) try {
+std::vector<std::string> keys_without_numbers(const std::vector<std::string>& words) {
+  // Tables of other commands have titles in their heads.
+  static const std::vector<std::string> kCommands = {"simulate", "sweep", "fall", "inverse"};
+  if (words.empty() || std::ranges::count(kCommands, words.front()) == 0) return {};
+  std::vector<std::string> keys{"title", "acknowledge", "draw", "theme", "text_scale", "style", "annotate"};
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    if (words[i] == "--over" || words[i] == "--sweep") keys.push_back(words[i + 1].substr(0, words[i + 1].find('=')));
+  return keys;
+}
+
+std::vector<std::string> changed_inputs(const Json& before, const Json& now, const std::vector<std::string>& without) try {
   std::vector<std::string> words;
   if (before.size() != now.size()) return {"its files are others"};
   for (std::size_t i = 0; i < before.size(); ++i) {
     const std::string file = before.size() > 1 || before[i].contains("sha256") ? word_of(before[i], "file") + ": " : "";
-    for (const std::string& one : changes_of(before[i], now[i])) words.push_back(file + one);
+    for (const std::string& one : changes_of(before[i], now[i], without)) words.push_back(file + one);
   }
   return words;
 } catch (const Json::exception&) {

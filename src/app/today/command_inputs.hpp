@@ -20,7 +20,10 @@ Json command_inputs(const std::vector<std::string>& words, const std::vector<std
 // Whether all are known.
 bool are_known(const Json& inputs);
 
-// What differs, a sentence each, with the file's name where there are several.
-std::vector<std::string> changed_inputs(const Json& before, const Json& now);
+// What differs, a sentence each, with the file's name where there are several. `without`: keys of scenes that make no difference.
+std::vector<std::string> changed_inputs(const Json& before, const Json& now, const std::vector<std::string>& without = {});
+
+// Keys of a scene of which no number in a table of that command tells: those of its picture, and those that the command sets itself.
+std::vector<std::string> keys_without_numbers(const std::vector<std::string>& words);
 
 }  // namespace chainreel

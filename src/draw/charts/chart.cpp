@@ -35,6 +35,7 @@ CurveStyle style_of(const WorkPrecision& data, std::size_t curve, const ChartLoo
   style.color = look.theme->base;
   style.width = size::kPlotLineSecondary;
   style.marker_size *= kQuietMarker;
+  if (data.curves[curve].points.size() > 1) style.marker = Marker::none;
   return style;
 }
 
@@ -155,14 +156,14 @@ std::vector<EndLabel> labels_of(const PlotFrame& frame, const WorkPrecision& dat
                                 const ChartLook& look) {
   std::vector<EndLabel> labels;
   for (std::size_t i = 0; i < data.curves.size(); ++i) {
+    if (!data.curves[i].is_lit) continue;
     std::optional<Point> end;
     for (const ChartPoint& point : data.curves[i].points) {
       const Point p = {point.failed ? frame.x.high : std::clamp(point.error, frame.x.low, frame.x.high),
                        cost_of(point, cost)};
       if (frame.can_show(p) && (!end || frame.at(p).x > end->x)) end = frame.at(p);
     }
-    if (end)
-      labels.push_back({*end, title_of(data.curves[i]), style_of(data, i, look), !data.curves[i].is_lit});
+    if (end) labels.push_back({*end, title_of(data.curves[i]), style_of(data, i, look)});
   }
   return labels;
 }
@@ -228,8 +229,10 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   if (data.reference_uncertainty > 0 && !data.is_least_of_reference()) add(of_reference());
   add("dotted: 1, 10 and 100 times the cheapest run");
   if (triangles) add("triangles: slope of an order");
-  if (std::any_of(data.curves.begin(), data.curves.end(), [](const ChartCurve& curve) { return !curve.is_lit; }))
-    add("grey: the other methods");
+  std::string others;
+  for (const ChartCurve& curve : data.curves)
+    if (!curve.is_lit) others += (others.empty() ? "grey: " : ", ") + title_of(curve);
+  add(others);
   if (any_failed(data)) add("crosses at the right edge: runs that failed or are lost");
   add(data.machine);
   return text;
@@ -248,8 +251,9 @@ std::span<const ChartCost> readable_panels(std::span<const ChartCost> panels, co
 
 Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCost> all_panels,
                              const ChartLook& look) {
-  std::vector<std::string> methods;
-  for (const ChartCurve& curve : data.curves) methods.push_back(title_of(curve));
+  std::vector<std::string> methods;  // that have labels
+  for (const ChartCurve& curve : data.curves)
+    if (curve.is_lit) methods.push_back(title_of(curve));
   const std::span<const ChartCost> panels = readable_panels(all_panels, methods, look);
   const auto draw = [&](bool explains_triangles, bool& triangles) {
     Picture picture;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,7 +29,7 @@ struct ChartCurve {
   std::vector<ChartPoint> points;
   int look = -1;  // of curve_style; -1: the place in the list
   std::string title{};  // what the picture calls it; "": `method`
-  bool is_lit = true;  // in colour; else grey, so that the others stand out
+  bool is_lit = true;  // in colour, with markers and a label; else a grey line, so that the others stand out
 };
 
 struct ChartChoice {
@@ -42,6 +43,7 @@ struct WorkPrecision {
   std::string error_meaning;         // for the foot; "": nothing to add
   double floor = 0;                  // the problem's amplification x 2^-53; 0: not known
   double reference_uncertainty = 0;  // 0: not known
+  double largest_answer = std::numeric_limits<double>::infinity();  // a run that is off by more tells nothing of the motion
   std::vector<ChartCurve> curves;
   std::optional<ChartChoice> choice;  // of `auto`
   std::string machine;                // processor, compiler, revision
@@ -60,8 +62,8 @@ Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCos
 // "h = 0.01 s" of "rk4, step 0.01 s": the setting without its method.
 std::string setting_of(const std::string& label);
 
-// Lights the curves of these methods, of none named those that are cheapest at some error in one of the panels, rounding
-// apart, and the choice of `auto`, and no others. Those that are lit have colours of their own, as far as there are so many.
+// Lights the curves of these methods, of none named those that are cheapest at some error in one of the panels which
+// is an answer, rounding apart, and the choice of `auto`, and no others. Those that are lit have colours of their own, as far as there are so many.
 void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const std::vector<std::string>& methods);
 
 // What a diagram draws beside its curves: guides, slopes, failures, the choice of `auto`. Internal.

@@ -260,9 +260,9 @@ void draw_choice(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
 
 // --- words at the ends of curves ---
 
-// Beside a point, where neither curves nor other words are; else nowhere.
-void draw_word_beside(Picture& picture, const std::string& text, Color color, Point at, Obstacles& obstacles, const ChartLook& look) {
-  if (text.empty()) return;
+// Beside a point, where neither curves nor other words are; else nowhere. Returns whether it stands.
+bool draw_word_beside(Picture& picture, const std::string& text, Color color, Point at, Obstacles& obstacles, const ChartLook& look) {
+  if (text.empty()) return true;
   const double em = look.plot_style().text(size::kTick);
   const TextLine line = lay_out_text(*look.fonts, text, {Face::label, em, color, Align::left});
   const double wide = line.advance, high = kCapHeight * em, off = 2 * kClearance;
@@ -273,12 +273,13 @@ void draw_word_beside(Picture& picture, const std::string& text, Color color, Po
     if (!obstacles.is_free(box)) continue;
     draw_text(picture, line, p);
     obstacles.boxes.push_back(box);
-    return;
+    return true;
   }
+  return false;
 }
 
-// With which steps or tolerances highlighted curves begin and end; and the names of the others at their most exact ends, since
-// grey does not tell them apart.
+// With which steps or tolerances highlighted curves begin and end; and the names of the others, since
+// grey does not tell them apart, as near to their most exact ends as there is room.
 void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, Obstacles& obstacles,
                     const ChartLook& look) {
   for (const bool lit : {true, false})
@@ -293,8 +294,12 @@ void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecisio
       if (curve.is_lit != lit || !first) continue;
       const auto place = [&](const ChartPoint& point) { return frame.at({point.error, cost_of(point, cost)}); };
       if (!lit) {
-        draw_word_beside(picture, without_formulas(curve.title.empty() ? curve.method : curve.title), look.theme->muted, place(*first),
-                         obstacles, look);
+        std::vector<const ChartPoint*> points;
+        for (const ChartPoint& point : curve.points)
+          if (!point.failed && point.error >= first->error && frame.can_show({point.error, cost_of(point, cost)})) points.push_back(&point);
+        std::ranges::stable_sort(points, {}, &ChartPoint::error);
+        const std::string name = without_formulas(curve.title.empty() ? curve.method : curve.title);
+        std::ranges::any_of(points, [&](const ChartPoint* point) { return draw_word_beside(picture, name, look.theme->muted, place(*point), obstacles, look); });
         continue;
       }
       const Color color = curve_style(curve.look < 0 ? int(k) : curve.look, *look.theme).color;
@@ -375,7 +380,7 @@ void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const 
     if (data.choice && data.choice->method == curve.method) curve.is_lit = true;
     for (const ChartCost cost : panels)
       for (const LogPoint& point : good_points(curve, cost))
-        curve.is_lit |= !(std::pow(10, point.error) < data.least_error()) && point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
+        curve.is_lit |= !(std::pow(10, point.error) < data.least_error()) && std::pow(10, point.error) <= data.largest_answer && point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
   }
   tell_colours_apart(data);
 }
@@ -398,8 +403,8 @@ void draw_failure(Picture& picture, const PlotFrame& frame, double cost, const C
                        ? std::clamp(frame.at_y(cost), frame.box.y0, frame.box.y1)
                        : frame.box.y1;  // it never came to an end
   const Color background = look.theme->background;
-  draw_marker(picture, {frame.box.x1 - kFailureShift * style.marker_size / size::kMarker, y}, style.marker,
-              style.marker_size, style.color, background);
+  if (style.marker != Marker::none)
+    draw_marker(picture, {frame.box.x1 - kFailureShift * style.marker_size / size::kMarker, y}, style.marker, style.marker_size, style.color, background);
   draw_marker(picture, {frame.box.x1, y}, Marker::cross, kFailureSize * style.marker_size, style.color,
               background);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "draw/page/arrow.hpp"
 #include "draw/page/scales.hpp"
 
 namespace chainreel {
@@ -15,16 +16,15 @@ std::vector<double> first_times(const Trajectory& trajectory, int frames) {
   return {trajectory.t.begin(), trajectory.t.begin() + std::ptrdiff_t(count)};
 }
 
-// Those in outline first: the one below them has rails as long as theirs.
+// Rails are as long as those of runs that are drawn over them, and one machine beside itself has rails of one length.
 std::vector<Panel> panels_of(const Stage& stage, const FilmView& view) {
-  const auto panel = [&](std::size_t i, std::span<const Panel> over) {
-    return Panel(stage.motions[i], {view.camera_of(i), view.cells[i].scene, int(i), view.marks},
-                 stage.motions[i].theme_of(stage.theme), over);
-  };
-  std::vector<Panel> outlined, panels;
-  for (std::size_t i = stage.full_panels(); i < stage.motions.size(); ++i) outlined.push_back(panel(i, {}));
-  for (std::size_t i = 0; i < stage.full_panels(); ++i) panels.push_back(panel(i, outlined));
-  std::move(outlined.begin(), outlined.end(), std::back_inserter(panels));
+  std::vector<Panel> panels;
+  for (std::size_t i = 0; i < stage.motions.size(); ++i)
+    panels.emplace_back(stage.motions[i], PanelView{view.camera_of(i), view.cells[i].scene, int(i), view.marks}, stage.motions[i].theme_of(stage.theme));
+  const std::vector<Panel> alone = panels;
+  for (std::size_t i = 0; i < stage.full_panels(); ++i)
+    for (std::size_t other = 0; other < panels.size(); ++other)
+      if (other >= stage.full_panels() || panels[i].scene().model.sha256() == panels[other].scene().model.sha256()) panels[i].let_rails_reach_those_of(alone[other]);
   return panels;
 }
 
@@ -100,7 +100,24 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) con
   for (std::size_t l = 0; l < layers_.size(); ++l)
     if (layers_[l]->is_of(panel.motion()))
       layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels});
-  if (is_gone && stage_->has_cells()) draw_veil(picture, i);
+  if (!is_gone || !stage_->has_cells()) return;
+  draw_veil(picture, i);
+  draw_way_out(picture, i, k);
+}
+
+// At the edge of its cell, towards where the chain is meanwhile.
+void Film::draw_way_out(Picture& picture, std::size_t i, int k) const {
+  constexpr double kLength = 0.11, kFromEdge = 0.012, kWide = 1.6;  // units of H; the last times an arrow's own size
+  const Panel& panel = panels_[i];
+  const Rect& r = view_.cells[i].scene;
+  const Point middle{(r.x0 + r.x1) / 2, (r.y0 + r.y1) / 2}, there = panel.far_point(std::min(k, panel.motion().samples() - 1));
+  const Point way = there - middle;
+  if (!std::isfinite(norm(way)) || !(norm(way) > 0)) return;
+  const Point u = unit(way);
+  const double reach = std::min(r.width() / 2 / std::max(std::abs(u.x), kRoundOff), r.height() / 2 / std::max(std::abs(u.y), kRoundOff));
+  if (norm(way) < reach) return;  // it is back for a while
+  const Color color = panel.motion().variant() ? panel.motion().variant()->color : stage_->theme.ink;
+  draw_arrow(picture, middle + (reach - kFromEdge - kLength) * u, kLength * u, {.color = color, .size = kWide * view_.marks}, int(i));
 }
 
 // Over a panel whose run came to an end that it should not have: what stands there is no more what happens.

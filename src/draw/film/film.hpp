@@ -51,6 +51,7 @@ class Film {
   Picture page() const;
   std::lock_guard<std::mutex> alone() const { return std::lock_guard(*drawing_); }
   void draw_veil(Picture& picture, std::size_t i) const;
+  void draw_way_out(Picture& picture, std::size_t i, int k) const;
   void draw_panel(Picture& picture, std::size_t i, int k, bool is_still) const;
   Picture drawn(int k, bool is_still) const;
   void draw_cell_frames(Picture& picture) const;

@@ -139,6 +139,12 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
   Rect inner = area;
   if (!labels.empty()) inner.x1 -= end_labels_width(labels, style_) + kPlotLabelGap;
   frame_ = lay_out_plot(inner, time_axis(data_.end), value_axis(data_), style_);
+  // What a run that went wild does behind the point where it leaves the plot is no motion.
+  for (StripCurve& curve : data_.curves) {
+    if (curve.decides) continue;
+    const auto out = std::ranges::find_if(curve.points, [&](const Point& p) { return !(p.y >= frame_.y.low && p.y <= frame_.y.high); });
+    if (out != curve.points.end()) curve.points.erase(out + 1, curve.points.end());
+  }
 }
 
 void PlotStrip::draw_static(Picture& picture) const {

@@ -48,7 +48,7 @@ double TipPath::gapless_since(int k, double t) const {
   return t_.front();
 }
 
-Panel::Panel(const StagedRun& motion, const PanelView& view, const Theme& theme, std::span<const Panel> over)
+Panel::Panel(const StagedRun& motion, const PanelView& view, const Theme& theme)
     : motion_(&motion),
       view_(view),
       skeleton_(motion.skeleton()),
@@ -58,14 +58,16 @@ Panel::Panel(const StagedRun& motion, const PanelView& view, const Theme& theme,
     find_last_inside();
     motion.let_rails_reach(skeleton_, last_ + 1);
   }
-  for (const Panel& other : over)
-    for (Rail& rail : skeleton_.rails)
-      for (const Rail& its : other.skeleton_.rails) {
-        if (its.body != rail.body || !its.used || !rail.used) continue;
-        rail.lower = std::min(rail.lower, its.lower);
-        rail.upper = std::max(rail.upper, its.upper);
-      }
   follow_tip();
+}
+
+void Panel::let_rails_reach_those_of(const Panel& other) {
+  for (Rail& rail : skeleton_.rails)
+    for (const Rail& its : other.skeleton_.rails) {
+      if (its.body != rail.body || !its.used || !rail.used) continue;
+      rail.lower = std::min(rail.lower, its.lower);
+      rail.upper = std::max(rail.upper, its.upper);
+    }
 }
 
 ChainDrawing Panel::drawing(const ChainLook& look) const {
@@ -139,13 +141,22 @@ std::string Panel::note(int k, int events) const {
   return gone && events > 0 ? text + away_note(k) : text;
 }
 
+Eigen::Vector3d Panel::farthest_place(int k) const {
+  const Workspace& ws = motion_->pose_at(std::min(k, motion_->samples() - 1));
+  Eigen::Vector3d far = chain().end_effector < 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : tip_position(chain(), ws);
+  for (int b = 1; b < int(chain().bodies.size()); ++b)
+    if (const Eigen::Vector3d& place = pose_of(ws, b).translation(); !(place.norm() <= far.norm())) far = place;  // so of what is no number, too
+  return far;
+}
+
+Point Panel::far_point(int k) const {
+  return camera().project(farthest_place(k));
+}
+
 // How far off it is meanwhile, where that is far beyond the picture: ", 3\u00D710\u2075 m away".
 std::string Panel::away_note(int k) const {
   constexpr double kFar = 10;  // times the picture's height
-  const Workspace& ws = motion_->pose_at(std::min(k, motion_->samples() - 1));
-  double away = chain().end_effector < 0 ? 0 : tip_position(chain(), ws).norm();
-  for (int b = 1; b < int(chain().bodies.size()); ++b) away = std::max(away, pose_of(ws, b).translation().norm());
-  const double height = area().height() / camera().scale;
+  const double away = farthest_place(k).norm(), height = area().height() / camera().scale;
   return std::isfinite(away) && away > kFar * height ? ", " + format_power(away) + " m away" : "";
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -52,8 +51,9 @@ inline constexpr char kBetweenEvents[] = ";  ";
 
 class Panel {
  public:
-  // Rails become as long as those of the panels `over` it, whose motion they show, too.
-  Panel(const StagedRun& motion, const PanelView& view, const Theme& theme, std::span<const Panel> over = {});
+  Panel(const StagedRun& motion, const PanelView& view, const Theme& theme);
+  // Rails become as long as those of the other panel, whose motion they show, too, or beside which they stand.
+  void let_rails_reach_those_of(const Panel& other);
 
   const StagedRun& motion() const { return *motion_; }
   const Chain& chain() const { return motion_->chain(); }
@@ -71,6 +71,8 @@ class Panel {
   // "left the picture at t = 1.24 s, 3\u00D710\u2075 m away" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
   std::string note(int k, int events = 2) const;  // of several kBetweenEvents
   std::string title() const { return motion_->title(); }
+  // On the page, which it may be far beyond: the place of the chain that is farthest from the world's origin at a sample.
+  Point far_point(int k) const;
   // The instant at which the panel stood still.
   std::optional<double> left_at() const;
 
@@ -80,6 +82,7 @@ class Panel {
   void follow_tip();
   std::string event_note(int k, int events) const;
   std::string away_note(int k) const;
+  Eigen::Vector3d farthest_place(int k) const;
 
   const StagedRun* motion_;
   PanelView view_;

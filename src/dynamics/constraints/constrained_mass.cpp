@@ -146,7 +146,7 @@ EffectiveMass constrained_effective_mass_of(const Chain& chain, Workspace& ws, c
   result.Lambda_inv = mobilities.Lambda_inv;
 
   // Against what the chain could do by itself: where all motion is forbidden, all that is left is round-off.
-  find_directions(result, mobilities.free, [](const Eigen::VectorXd&) { return true; });
+  find_directions(result, mobilities.free);
   for (Eigen::Index k = 0; k < result.mobility.size(); ++k)
     if (result.is_infinite[std::size_t(k)]) result.mobility(k) = 0;
   if (result.singular_directions.empty()) result.Lambda = inverse_by_directions(result);

@@ -19,6 +19,10 @@ namespace {
 constexpr double kLeastStep = 1e-7;  // s
 // A ladder ends where errors this small do not get smaller any more: what is left is rounding.
 constexpr int kRungsOfRounding = 2;
+// The table of costs does not know how often an implicit method asks for its equations: a run may take so much longer than it says. Shorter steps may
+// be quicker, as they converge sooner, but not for ever.
+constexpr double kLonger = 2;
+constexpr int kRungsTooLong = 3;
 constexpr double kSmallError = 1e-7;
 // Very short runs are repeated inside one measurement, or the clock would be what is measured.
 constexpr double kShortestMeasurement = 2e-4;  // s
@@ -27,7 +31,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-double apart(ConstVec x, const std::vector<double>& reference) {
+double apart(ConstVec x, ConstVec reference) {
   double largest = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double error = std::abs(x[i] - reference[i]);
@@ -36,12 +40,29 @@ double apart(ConstVec x, const std::vector<double>& reference) {
   return largest;
 }
 
-void find_errors(const Trajectory& trajectory, const EndState& reference, Rung& rung) {
-  rung.error = rung.error_q = rung.error_qd = kInfinity;
-  if (trajectory.status != RunStatus::finished || trajectory.size() == 0) return;
-  rung.error_q = apart(trajectory.q_at(trajectory.size() - 1), reference.q);
-  rung.error_qd = apart(trajectory.qd_at(trajectory.size() - 1), reference.qd);
-  rung.error = std::max(rung.error_q, reference.qd_scale * rung.error_qd);
+// Steps of one length end there, as far as decimal numbers tell. Between them a method's polynomial may be less exact than its steps.
+bool ends_step(double t, double step) {
+  constexpr double kOfStep = 1e-6;
+  const double steps = t / step;
+  return std::abs(steps - std::round(steps)) < kOfStep;
+}
+
+// `run`: sampled at the reference's instants.
+void find_errors(const Trajectory& run, const ReferenceRun& reference, Rung& rung) {
+  constexpr StateError kFailed{kInfinity, kInfinity, kInfinity};
+  rung.way = {};
+  rung.final = kFailed;
+  if (run.status != RunStatus::finished || run.size() != int(reference.t.size())) {
+    rung.way = kFailed;
+    return;
+  }
+  for (int k = 0; k < run.size(); ++k) {
+    const bool is_end = k + 1 == run.size();
+    if (!is_end && rung.setting.step > 0 && !ends_step(run.t[std::size_t(k)], rung.setting.step)) continue;
+    const double q = apart(run.q_at(k), reference.q_at(std::size_t(k))), qd = apart(run.qd_at(k), reference.qd_at(std::size_t(k)));
+    rung.final = {q, qd, std::max(q, reference.qd_scale * qd)};
+    rung.way = {std::max(rung.way.q, q), std::max(rung.way.qd, qd), std::max(rung.way.size, rung.final.size)};
+  }
 }
 
 double median(std::vector<double>& values) {
@@ -77,15 +98,31 @@ std::vector<MethodSetting> settings_of(const Simulation& simulation, const Metho
 
 }  // namespace
 
+namespace {
+
 // No double comes nearer to what it stands for, however near a run may come by luck.
-double rounding_of(const EndState& reference) {
+double rounding_of(ConstVec numbers) {
   double largest = 0;
-  for (const double q : reference.q) largest = std::max(largest, std::abs(q));
+  for (const double q : numbers) largest = std::max(largest, std::abs(q));
   return 0x1p-53 * largest;
 }
 
-Rung measure(Simulation& simulation, const MethodSetting& setting, const EndState& reference, int runs,
-             const StopRequest& stop) {
+}  // namespace
+
+double judged_error(const Rung& rung, Judged judged) {
+  switch (judged) {
+    case Judged::way:
+      return rung.way.size;
+    case Judged::final:
+      return rung.final.size;
+    case Judged::energy:
+      break;
+  }
+  return rung.energy_error;
+}
+
+Rung measure(Simulation& simulation, const MethodSetting& setting, const ReferenceRun& reference, int runs,
+             const StopRequest& stop, double longest) {
   apply(setting, simulation);
   const double end[] = {simulation.duration};
   Rung rung;
@@ -93,10 +130,17 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const EndStat
   std::vector<double> seconds;
   while (int(seconds.size()) < runs) {
     const auto begin = std::chrono::steady_clock::now();
+    const bool is_first = seconds.empty();
+    bool is_too_long = false;
+    const StopRequest stop_in_time = [&](double t) {
+      is_too_long = is_first && seconds_since(begin) > longest;
+      return is_too_long || (stop && stop(t));
+    };
     int repeats = 0;
     Trajectory trajectory;
     do {
-      trajectory = simulate(simulation, end, stop);
+      trajectory = simulate(simulation, end, stop_in_time);
+      if (is_too_long) trajectory.status = RunStatus::out_of_budget;
       ++repeats;
     } while (seconds_since(begin) < kShortestMeasurement);
     seconds.push_back(seconds_since(begin) / repeats);
@@ -105,13 +149,13 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const EndStat
     rung.trouble = trajectory.trouble;
     rung.steps = trajectory.steps;
     rung.evaluations = trajectory.evaluations;
-    find_errors(trajectory, reference, rung);
-    rung.error = std::max(rung.error, rounding_of(reference));
-    rung.energy_error = kInfinity;
-    if (trajectory.size() > 0) {
-      const Trajectory audited = simulate_audited(simulation, end, stop);
-      rung.energy_error = std::max(audit_of(simulation, trajectory).largest_error, audited.energy_at_steps ? audited.energy_at_steps->largest_error : 0.0);
-    }
+    rung.energy_error = rung.way.size = rung.final.size = kInfinity;
+    if (trajectory.size() == 0 || is_too_long) break;
+    const Trajectory audited = simulate_audited(simulation, reference.t, stop);
+    find_errors(audited, reference, rung);
+    rung.way.size = std::max(rung.way.size, rounding_of(reference.q));
+    rung.final.size = std::max(rung.final.size, rounding_of(reference.q_at(reference.t.size() - 1)));
+    rung.energy_error = std::max(audit_of(simulation, trajectory).largest_error, audited.energy_at_steps ? audited.energy_at_steps->largest_error : 0.0);
     if (trajectory.status != RunStatus::finished) break;  // nobody asks how fast it failed
   }
   rung.runs = int(seconds.size());
@@ -119,7 +163,7 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const EndStat
   return rung;
 }
 
-Ladder climb(Simulation& simulation, const Method& method, const EndState& reference,
+Ladder climb(Simulation& simulation, const Method& method, const ReferenceRun& reference,
              const LadderOptions& options, const StopRequest& stop) {
   Ladder ladder{&method, {}, {}};
   simulation.method = &method;
@@ -130,16 +174,21 @@ Ladder climb(Simulation& simulation, const Method& method, const EndState& refer
     return ladder;
   }
   double best = kInfinity;
-  int without_gain = 0;
+  int without_gain = 0, too_long = 0;
   for (const MethodSetting& setting : settings_of(simulation, method, options)) {
-    Rung rung = measure(simulation, setting, reference, options.runs, stop);
+    Rung rung = measure(simulation, setting, reference, options.runs, stop, kLonger * options.longest_run);
+    if (rung.status == RunStatus::out_of_budget) {
+      if (++too_long == kRungsTooLong) break;
+      continue;
+    }
+    too_long = 0;
     const bool interrupted = rung.status == RunStatus::interrupted;
-    const double judged = options.judges_energy ? rung.energy_error : rung.error;
+    const double judged = judged_error(rung, options.judged);
     const bool gained = judged < best;
     best = std::min(best, judged);
     if (!interrupted) ladder.rungs.push_back(rung);
     without_gain = gained || !(best < kSmallError) ? 0 : without_gain + 1;
-    if (interrupted || without_gain >= kRungsOfRounding || rung.seconds > 2 * options.longest_run) break;
+    if (interrupted || without_gain >= kRungsOfRounding || rung.seconds > kLonger * options.longest_run) break;
   }
   return ladder;
 }
@@ -149,26 +198,32 @@ namespace {
 // Small against the start, large against rounding.
 constexpr double kPush = 1e-9;
 constexpr int kLooks = 200;  // at rates and their changes
+constexpr double kFewestInstants = 40;
 
-EndState run(Simulation& simulation, const MethodSetting& setting) {
-  apply(setting, simulation);
-  const double end[] = {simulation.duration};
-  const Trajectory trajectory = simulate(simulation, end);
-  if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
-    throw Error(ExitCode::numerical, "no reference: " + to_string(setting) + " " + trajectory.trouble);
-  const ConstVec q = trajectory.q_at(0), qd = trajectory.qd_at(0);
-  return {{q.begin(), q.end()}, {qd.begin(), qd.end()}, 1};
+// Ends of as many ladders' steps as there are: multiples of 1, 2 or 5 times a power of ten.
+std::vector<double> instants_of(double duration) {
+  std::vector<double> times;
+  for (const double step : steps_from(1)) {
+    if (duration / step < kFewestInstants) continue;
+    for (double k = 1; k * step < duration * (1 - 1e-9); ++k) times.push_back(k * step);
+    break;
+  }
+  times.push_back(duration);
+  return times;
 }
 
-double apart(const std::vector<double>& a, const std::vector<double>& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-  return largest;
+Trajectory run(Simulation& simulation, const MethodSetting& setting, std::span<const double> times) {
+  apply(setting, simulation);
+  Trajectory trajectory = simulate(simulation, times);
+  if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
+    throw Error(ExitCode::numerical, "no reference: " + to_string(setting) + " " + trajectory.trouble);
+  return trajectory;
 }
 
 // By how much errors of a start coordinate or rate grow, one by one; the largest. Rotations of a floating
 // base are left alone.
-double amplification_of(Simulation& simulation, const MethodSetting& setting, const EndState& end) {
+double amplification_of(Simulation& simulation, const MethodSetting& setting, ConstVec q_at_end) {
+  const double end[] = {simulation.duration};
   double largest = 1;
   for (std::vector<double>* start : {&simulation.q0, &simulation.qd0}) {
     if (start == &simulation.q0 && simulation.chain.has_floating) continue;
@@ -176,14 +231,14 @@ double amplification_of(Simulation& simulation, const MethodSetting& setting, co
       const double x0 = x;
       x = x0 + kPush;
       const double moved = x - x0;
-      largest = std::max(largest, apart(run(simulation, setting).q, end.q) / moved);
+      largest = std::max(largest, apart(run(simulation, setting, end).q_at(0), q_at_end) / moved);
       x = x0;
     }
   }
   return largest;
 }
 
-// The time in which rates change by their own size; see EndState. Two or three digits are plenty.
+// The time in which rates change by their own size; see ReferenceRun. Two or three digits are plenty.
 double qd_scale_of(Simulation& simulation) {
   apply({&find_method("dop853"), {1e-6, 0}, 0}, simulation);
   std::vector<double> times;
@@ -200,38 +255,46 @@ double qd_scale_of(Simulation& simulation) {
   return rate > 0 && rate < change * simulation.duration ? rate / change : simulation.duration;
 }
 
-std::optional<EndReference> by_quads(const Simulation& simulation) {
-  const double end[] = {simulation.duration};
-  const auto quads = quad_reference(simulation, end);
+std::optional<LadderReference> by_quads(const Simulation& simulation, const std::vector<double>& times) {
+  const auto quads = quad_reference(simulation, times);
   const auto amplification = quad_amplification(simulation, simulation.duration);
   if (!quads || !amplification) return std::nullopt;
-  return EndReference{{quads->q, quads->qd, 1}, quads->uncertainty.back(), *amplification, quads->how};
+  return LadderReference{{times, quads->q, quads->qd, 1}, *std::ranges::max_element(quads->uncertainty), quads->uncertainty.back(), *amplification, quads->how};
 }
 
-// For torques that cannot be had in quadruple precision.
-EndReference by_doubles(Simulation& simulation) {
-  const MethodSetting first{&find_method("dop853"), {1e-14, 0}, 0};
-  const MethodSetting second{&find_method("radau5"), {1e-11, 0}, 0};
-  EndReference reference;
-  reference.state = run(simulation, first);
-  reference.uncertainty = apart(reference.state.q, run(simulation, second).q);
-  reference.amplification = amplification_of(simulation, first, reference.state);
+// For torques that cannot be had in quadruple precision. Between the instants steps are short enough for dense output to lose nothing; where
+// steps of another length end elsewhere, it shows how little.
+LadderReference by_doubles(Simulation& simulation, const std::vector<double>& times) {
+  constexpr double kFirstSteps = 0.5, kSecondSteps = 0.31;  // of the distance of instants
+  const MethodSetting first{&find_method("dop853"), {1e-14, 0}, 0}, second{&find_method("radau5"), {1e-11, 0}, 0};
+  const double longest_step = simulation.longest_step, end[] = {simulation.duration};
+  const auto with_steps = [&](double share) {
+    simulation.longest_step = share * times.front();
+    Trajectory one = run(simulation, first, times);
+    simulation.longest_step = longest_step;
+    return one;
+  };
+  const Trajectory one = with_steps(kFirstSteps), other = with_steps(kSecondSteps);
+  const ConstVec last = one.q_at(one.size() - 1);
+  LadderReference reference;
+  reference.run = {times, one.q, one.qd, 1};
+  reference.final_uncertainty = apart(last, run(simulation, second, end).q_at(0));
+  reference.uncertainty = reference.final_uncertainty;
+  for (int k = 0; k < one.size(); ++k) reference.uncertainty = std::max(reference.uncertainty, apart(one.q_at(k), other.q_at(k)));
+  reference.amplification = amplification_of(simulation, first, last);
   reference.how = "dop853 at 1e-14 beside radau5, in doubles";
   return reference;
 }
 
 }  // namespace
 
-EndReference end_reference(Simulation& simulation) {
-  const Method* const method = simulation.method;
-  const MethodOptions options = simulation.options;
-  const double step = simulation.step;
-  const auto quads = by_quads(simulation);
-  EndReference reference = quads ? *quads : by_doubles(simulation);
-  reference.state.qd_scale = qd_scale_of(simulation);
-  simulation.method = method;
-  simulation.options = options;
-  simulation.step = step;
+LadderReference find_reference_run(Simulation& simulation) {
+  const MethodSetting own{simulation.method, simulation.options, simulation.step};
+  const std::vector<double> times = instants_of(simulation.duration);
+  const auto quads = by_quads(simulation, times);
+  LadderReference reference = quads ? *quads : by_doubles(simulation, times);
+  reference.run.qd_scale = qd_scale_of(simulation);
+  apply(own, simulation);
   return reference;
 }
 
