@@ -10,6 +10,8 @@
 #include "app/film/model_scene.hpp"
 #include "app/film/prepared.hpp"
 #include "app/main_program.hpp"
+#include "app/report/run_report.hpp"
+#include "app/today/table_record.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/json.hpp"
@@ -35,7 +37,9 @@ SymbolicEquation equation_of(const EquationsOptions& options) {
     honoured.push_back("end_effector");
     ModelScene model = model_scene_of(options.file, overrides_of(options), "equations", honoured);
     model.options.meshes = false;
-    return symbolic_equation_of(read_chain(options.file, model.options));
+    const Chain chain = read_chain(options.file, model.options);
+    tell_warnings(chain.slips);
+    return symbolic_equation_of(chain);
   }
   const PreparedFilm film = load_film(options.file, overrides_of(options), false);
   const Simulation& simulation = film.panels[chosen_panel(film.scene, options.panel)].simulation;
@@ -161,12 +165,15 @@ void run_equations(const EquationsOptions& options) {
   std::vector<std::unique_ptr<OutputFile>> files;
   refuse_twice(options.outputs);
   for (const std::string& path : options.outputs) files.push_back(std::make_unique<OutputFile>(path, options.common.force));
+  TableRecords records(*options.command, options.common.force);
+  records.open(options.outputs, options.outputs);
   const SymbolicEquation equation = equation_of(options);
   tell_missing(options, words, equation);
   if (files.empty() && !options.common.json)
     return void(std::fputs(text_in(forms[0], equation, words).c_str(), stdout));
   for (std::size_t i = 0; i < files.size(); ++i) write_temporary(*files[i], text_in(forms[i], equation, words));
   for (const auto& file : files) file->commit();
+  records.write();
   if (options.common.json) tell_files(options.common, options.outputs, [&] { return json_of(equation); });
 }
 

@@ -126,6 +126,7 @@ struct Chain {
 
   std::optional<PlanarChain> planar;  // set when all motion stays in one plane
   std::string why_algebra;            // one sentence: why planar, or what made it spatial
+  std::vector<std::string> slips;     // "arm.urdf:12: the attribute 'dampping' .. did you mean 'damping'?": what its file says that is not read, but was likely meant
 };
 
 // kg, of all bodies that move.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/format.hpp"
 #include "model/planar.hpp"
@@ -140,11 +141,31 @@ std::vector<Finding> DoctorReport::sorted() {
   return std::move(findings_);
 }
 
+namespace {
+
+std::string not_read(const UrdfIgnoredTag& tag) {
+  return "<" + tag.name + "> inside <" + tag.parent + "> is not read" + (tag.count > 1 ? " (" + std::to_string(tag.count) + " times, the first is here)" : "");
+}
+
+}  // namespace
+
+std::vector<std::string> slips_of(const UrdfFile& file) {
+  std::vector<std::pair<int, std::string>> found;
+  for (const UrdfRemark& remark : file.remarks)
+    if (!remark.is_harmless) found.emplace_back(remark.line, remark.message);
+  for (const UrdfIgnoredTag& tag : file.ignored)
+    if (const std::string near = near_name(tag.name, kReadTags); !near.empty()) found.emplace_back(tag.first_line, not_read(tag) + ":" + near);
+  std::ranges::stable_sort(found, {}, &std::pair<int, std::string>::first);
+  std::vector<std::string> slips;
+  const std::string name = std::filesystem::path(file.path).filename().string();
+  for (std::size_t i = 0; i < std::min(found.size(), std::size_t(kMostOfAKind)); ++i) slips.push_back(name + ":" + std::to_string(found[i].first) + ": " + found[i].second);
+  if (found.size() > slips.size()) slips.push_back(name + ": and " + std::to_string(found.size() - slips.size()) + " more: `chainreel check " + name + "`");
+  return slips;
+}
+
 void examine_tags(const UrdfFile& file, DoctorReport& report) {
   for (const UrdfIgnoredTag& tag : file.ignored) {
-    std::string message = "<" + tag.name + "> inside <" + tag.parent + "> is not read";
-    if (tag.count > 1) message += " (" + std::to_string(tag.count) + " times, the first is here)";
-    const std::string near = near_name(tag.name, kReadTags);
+    const std::string message = not_read(tag), near = near_name(tag.name, kReadTags);
     const Severity severity = near.empty() ? Severity::note : Severity::warning;
     report.add(severity, "tags that are not read", tag.first_line,
                message + (near.empty() ? "" : ":" + near));

@@ -30,6 +30,9 @@ std::vector<Finding> examine_model(const std::string& path, const ModelOptions& 
 
 inline constexpr int kMostOfAKind = 5;
 
+// Of a file that was read, what it says that is not read, but was likely meant: "arm.urdf:12: .. did you mean 'damping'?".
+std::vector<std::string> slips_of(const UrdfFile& file);
+
 // Findings as they are gathered, and the separate looks that make up the doctor's examination.
 
 class DoctorReport {

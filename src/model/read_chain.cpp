@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/doctor.hpp"
 #include "model/planar.hpp"
 #include "model/reduce.hpp"
 #include "model/regularity.hpp"
@@ -95,6 +96,7 @@ Chain chain_of(const UrdfFile& file, const ModelOptions& options) {
   for (int i = 0; i < 3; ++i)
     if (std::isnan(chain.gravity[i])) chain.gravity[i] = down[i];
   chain.planar = planar_form_of(chain, chain.why_algebra);
+  chain.slips = slips_of(file);
   return chain;
 }
 

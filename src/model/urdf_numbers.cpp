@@ -140,6 +140,7 @@ UrdfOrigin UrdfNumbers::origin(XMLElement& element, const std::string& owner) {
   UrdfOrigin origin;
   XMLElement* found = element.FirstChildElement("origin");
   if (found == nullptr) return origin;
+  if (const XMLElement* second = found->NextSiblingElement("origin")) problems_.add(second->GetLineNum(), owner + " has more than one <origin>: keep one");
   origin.xyz = three(*found, "xyz", owner, Need::optional).value_or(origin.xyz);
   origin.rpy = three(*found, "rpy", owner, Need::optional).value_or(origin.rpy);
   return origin;

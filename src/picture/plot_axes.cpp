@@ -361,6 +361,11 @@ bool is_dark(Color c) {
 
 }  // namespace
 
+Color variant_color(const Theme& theme, int i, int count) {
+  if (count == 2) return i == 0 ? theme.side_a : theme.side_b;
+  return i < theme.variants ? theme.variant[std::size_t(i)] : curve_style(i, theme).color;
+}
+
 CurveStyle curve_style(int index, const Theme& theme, double text_scale) {
   const int look = index % kCurveLooks, round = index / kCurveLooks;
   const auto& colors = is_dark(theme.background) ? kOnDark : kOnLight;

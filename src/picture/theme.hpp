@@ -14,12 +14,17 @@ struct Theme {
   Color ellipse, torque, velocity, force, constraint;
   std::array<Color, 3> curve;  // plot lines of joints 1, 2, 3
   Color side_a, side_b;        // the two sides of a comparison
+  std::array<Color, 5> variant{};  // of three and more, the first `variants`; then those of curve_style
+  int variants = 0;                // none but a style's
   std::array<Color, 3> axis;   // x, y, z of a frame; each axis also bears its letter
   double lines = 1;            // times the widths of outlines, curves and ellipses
   double trail = 1;            // s that trails go back
 
   friend bool operator==(const Theme&, const Theme&) = default;
 };
+
+// Of one of `count` runs that are compared.
+Color variant_color(const Theme& theme, int i, int count);
 
 const Theme& light_theme();
 const Theme& dark_theme();

@@ -55,8 +55,8 @@ inline constexpr std::array kStyleColors = {
     Name{"rule", "frames of panels"},       Name{"grid", "of plots"},
     Name{"ellipse", "the effective mass"},  Name{"torque", "torques of joints"},
     Name{"velocity", "arrows of velocity"}, Name{"force", "gravity and other forces"},
-    Name{"constraint", "reactions"},        Name{"side_a", "the first of two variants"},
-    Name{"side_b", "the second of two variants"}};
+    Name{"constraint", "reactions"},        Name{"side_a", "the first of two variants; of more the one behind those of `curves`"},
+    Name{"side_b", "the second of two variants; of more the one behind side_a"}};
 inline constexpr std::size_t kMostLinkColors = 4, kMostCurveColors = 3;
 
 }  // namespace chainreel

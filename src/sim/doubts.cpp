@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <variant>
 
@@ -180,6 +181,14 @@ bool follows_a_curve(const Simulation& simulation) {
 
 std::optional<Doubt> doubt_of_energy(const Simulation& simulation, const Trajectory& trajectory, const Audit& audit,
                                   const std::optional<Accuracy>& chosen_by) {
+  const auto lost = std::ranges::find_if(trajectory.work, [](double work) { return !std::isfinite(work); });
+  if (lost != trajectory.work.end()) {
+    // The rates may be finite again behind a pole that a step went over.
+    const double t = trajectory.t[std::size_t(lost - trajectory.work.begin())], before = lost == trajectory.work.begin() ? 0 : trajectory.t[std::size_t(lost - trajectory.work.begin()) - 1];
+    return Doubt{"energy", std::numeric_limits<double>::infinity(),
+                 "the work of the torques is no number from t = " + format_significant(t, 4) + " s on, as behind a pole of a torque, where no motion goes on",
+                 before > 0 ? "--set duration=" + format_significant(round_down(before), 3) + ", which ends before it" : "a torque that stays finite"};
+  }
   double largest_work = 0;
   for (const double work : trajectory.work) largest_work = std::max(largest_work, std::abs(work));
   const double at_play = std::abs(audit.energy_start) + audit.energy_moved + largest_work;

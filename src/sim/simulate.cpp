@@ -362,7 +362,9 @@ class Run {
   // Limits that were passed in the last step, up to where the run ended; the first one ends it where the scene
   // stops at limits. An effort may be asked for in an attempt or at a stage alone: then it is looked for on.
   void look_at_limits() {
-    if (simulation_.step <= 0 && !system_.limits().are_none()) look_at_limits_within();
+    // A swing may pass a limit and come back within a long step; of short ones their ends are near enough to tell where it may.
+    constexpr double kShort = 1.0 / 2048;  // of the run
+    if (!system_.limits().are_none()) limit_search_.look_within(*integrator_, simulation_.step > 0 && simulation_.step < kShort * simulation_.duration ? 1 : kLooksPerStep);
     system_.limits().check_state(now(), q_now(), qd_now());
     const std::vector<LimitEvent>& seen = system_.limits().events();
     while (limits_seen_ < seen.size()) seen_limits_.push_back(seen[limits_seen_++]);
@@ -375,16 +377,6 @@ class Run {
     });
     system_.forget_bad_torque();
     report(std::move(passed));
-  }
-
-  // A swing may pass a limit and come back within a long step.
-  void look_at_limits_within() {
-    const double begin = integrator_->begin_time();
-    for (int look = 1; look < kLooksPerStep; ++look) {
-      const double t = begin + (now() - begin) * look / kLooksPerStep;
-      integrator_->interpolate(t, q_, qd_);
-      system_.limits().check_state(t, q_, qd_);
-    }
   }
 
   void look_at_limits_of_start() {
@@ -449,6 +441,7 @@ class Run {
   std::optional<EventWatch> watch_;
   std::optional<CornerWatch> corners_;  // of the state
   bool chatters_ = false;               // they jump to and fro without end
+  LimitSearch limit_search_{system_};
   std::size_t limits_seen_ = 0;            // by the watch, of its list
   std::vector<LimitEvent> seen_limits_;    // but not found on a step yet
   double next_request_ = 0;  // the work at which the next stop request is asked

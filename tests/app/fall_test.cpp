@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "core/json.hpp"
@@ -245,6 +246,27 @@ TEST(FallCommand, GivesTheClosedFormInJsonAndCsv) {
   const std::string text = read_whole_file(csv);
   EXPECT_THAT(text, HasSubstr("torque.2,fall_time [s],status,end_time [s],\"half [s]\",\"down [s]\""));
   EXPECT_THAT(text, HasSubstr("40,,finished,2,,"));
+}
+
+// Against the key: instants of falls and of tipping, edges as lines with their numbers.
+TEST(FallCommand, DrawsWhenHeFalls) {
+  const TemporaryFolder folder;
+  const Words sweep{"fall", "humanoid_fall", "--sweep", "parameters.k=0:1200:5", "--edges"};
+  const auto with = [&](Words more) {
+    Words words = sweep;
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  const ProgramResult drawn = with({"-o", folder.file("f.svg")});
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  const std::string svg = read_whole_file(folder.file("f.svg"));
+  EXPECT_THAT(svg, testing::AllOf(HasSubstr("down"), HasSubstr("foot tips"), HasSubstr("instant [s]"), HasSubstr("from '")));
+  EXPECT_THAT(read_whole_file(folder.file("f.csv")), HasSubstr("parameters.k,fall_time [s]")) << "the numbers lie beside it";
+  EXPECT_EQ(run_program({"check", folder.file("f.svg"), "--today"}).status, 0);
+  const ProgramResult none = run_program({"fall", "humanoid_fall", "-o", folder.file("g.png")});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("--sweep"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("g.png")));
 }
 
 TEST(FallCommand, SaysWhatItNeeds) {

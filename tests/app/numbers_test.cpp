@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 
 #include "core/format.hpp"
@@ -75,6 +76,28 @@ TEST(SimulateCommand, HasThePeakOfAMultiplierThatTheAuditHas) {
 }
 
 // Forces may be no numbers behind the end: a first step that is tried out looks no farther, wherever the run begins.
+// CI asks for the numbers of the run that fails, too.
+TEST(SimulateCommand, TellsItsReportOfARunThatShouldHaveEndedOtherwise) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: {links: [0.5, 0.5], masses: [1, 1], efforts: [1, 1]}\nstart: {q: [0, 0]}\ntorque: [3, 2]\nduration: 1\nexpect: within_limits\n"
+                                                   "method: rk4\nstep: 1ms\n");
+  const ProgramResult limit = run_program({"simulate", scene, "--peaks", "tau", "--json", "-o", folder.file("a.csv")});
+  EXPECT_EQ(limit.status, 7);
+  const Json json = Json::parse(limit.out);
+  EXPECT_EQ(json["limits_passed"].size(), 2u);
+  EXPECT_EQ(json["peaks"].size(), 2u);
+  EXPECT_THAT(limit.err, testing::AllOf(testing::HasSubstr("joint1"), testing::HasSubstr("joint2"))) << "all that are passed";
+  EXPECT_FALSE(read_whole_file(folder.file("a.csv")).empty());
+  const ProgramResult lost = run_program({"simulate", scene, "--set", "expect=finish", "--set", "torque=[1e6 * q1, 1e6 * q2 + 1]", "--peaks", "tau", "--json", "-o", folder.file("b.csv")});
+  EXPECT_EQ(lost.status, 5);
+  const Json diverged = Json::parse(lost.out);
+  EXPECT_EQ(diverged["status"], "diverged");
+  EXPECT_FALSE(diverged["trouble"].is_null());
+  EXPECT_EQ(diverged["peaks"].size(), 0u) << "what it grows to is no peak";
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.csv.json"))) << "no record of a table that is a part";
+  EXPECT_EQ(run_program({"sweep", scene, "--over", "duration=0.1,0.2", "-o", folder.file("s.csv")}).status, 7);
+}
+
 TEST(SimulateCommand, AsksForNoTorqueBehindTheEnd) {
   const TemporaryFolder folder;
   for (const char* method : {"dop853", "radau5", "auto"})

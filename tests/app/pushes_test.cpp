@@ -110,6 +110,32 @@ TEST_F(PushedScene, IsOfRunsAlone) {
   EXPECT_EQ(run_program({"inverse", scene(), "--set", "push=", "--trajectory", log, "-o", folder_.file("tau.csv")}).status, 0) << "the remedy works";
 }
 
+// A parameter gives it, so that a title and a sweep follow.
+TEST(PushOfAParameter, IsWhatTheNumberIs) {
+  const TemporaryFolder folder;
+  const std::string body = "model: {links: [0.5, 0.5], masses: [1, 1]}\nduration: 0.5\nmethod: rk4\nstep: 1ms\n";
+  const std::string named = folder.write("f.yaml", body + "title: \"pushed with {F} N\"\nparameters: {F: 30}\npush: {force: [F, -F / 3], from: 0.1, until: 0.2s}\n");
+  const std::string plain = folder.write("p.yaml", body + "push: {force: [30, -10], from: 0.1, until: 0.2s}\n");
+  const auto rows = [&](const Words& more) {
+    Words words{"simulate", more[0], "--quiet", "--force", "-o", folder.file("t.csv")};
+    words.insert(words.end(), more.begin() + 1, more.end());
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_whole_file(folder.file("t.csv"));
+  };
+  EXPECT_EQ(rows({named}), rows({plain}));
+  EXPECT_EQ(rows({named, "--set", "parameters.F=12"}), rows({plain, "--set", "push.force=[12, -4]"}));
+  EXPECT_NE(rows({named}), rows({named, "--set", "parameters.F=12"}));
+  // The effective scene keeps the name, so that what comes of it follows, too.
+  ASSERT_EQ(run_program({"snapshot", named, "--at", "0.15", "-o", folder.file("s.png"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_program({"extract", folder.file("s.png"), "-o", folder.file("again.yaml")}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("again.yaml")), HasSubstr("force: [F, -F / 3]"));
+  EXPECT_EQ(run_program({"sweep", named, "--over", "parameters.F=0:30:3", "-o", folder.file("w.csv")}).status, 0);
+  const ProgramResult wrong = run_program({"check", named, "--set", "push.force=[G, 0]"});
+  EXPECT_EQ(wrong.status, 3);
+  EXPECT_THAT(wrong.err, testing::AllOf(HasSubstr("'push.force.1'"), HasSubstr("'G'"), HasSubstr("parameters")));
+}
+
 TEST_F(PushedScene, IsSweptByItsNumbers) {
   ASSERT_EQ(run_program({"sweep", scene(), "--over", "push.force.1=0,3,-3", "--set", "push.force.2=0", "-o", folder_.file("a.json")}).status, 0);
   const Json table = Json::parse(read_whole_file(folder_.file("a.json")));

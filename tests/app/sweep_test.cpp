@@ -54,6 +54,34 @@ TEST(SweepTable, HasItsNamesBehindThreeLinesOfFacts) {
   EXPECT_THAT(run_program({"sweep", "--help"}).out, HasSubstr("skip_header=3"));
 }
 
+// An oscillator without damping passes zero at t = pi / 2 w, 3 pi / 2 w, .. downwards every period: first, last and number by the closed form.
+TEST(SweepTable, HasTheFirstAndTheLastOfEachEventAndHowOften) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: {links: [1], masses: [1], joints: P}\ngravity: [0, 0, 0]\nstart: {q: [1]}\ntorque: [-k * q1]\nparameters: {k: 1}\n"
+                                                   "events: [{when: q1 < 0, name: left}, {when: q1 > 5, name: far}]\nduration: 10\nmethod: dop853\ntolerance: 1e-11\n");
+  const ProgramResult result = run_program({"sweep", scene, "--over", "parameters.k=1,4,0.01", "-o", folder.file("e.csv")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, testing::HasSubstr("in 2 of 3 rows an event happens more than once"));
+  const std::vector<std::string> lines = lines_of(folder.file("e.csv"));
+  EXPECT_THAT(lines[3], testing::HasSubstr(",left [s],last_left [s],times_left,far [s],last_far [s],times_far,trouble"));
+  const std::vector<std::string> names = fields_of(lines[3]);
+  const auto at = std::size_t(std::ranges::find(names, "left [s]") - names.begin());
+  const double pi = 3.14159265358979312;
+  for (const auto& [row, w] : {std::pair{0, 1.0}, {1, 2.0}, {2, 0.1}}) {
+    const std::vector<std::string> cells = fields_of(lines[std::size_t(4 + row)]);
+    const int times = w * 10 < pi / 2 ? 0 : 1 + int((w * 10 - pi / 2) / (2 * pi));
+    EXPECT_EQ(cells.at(at + 2), std::to_string(times)) << w;
+    EXPECT_EQ(cells.at(at + 5), "0");
+    if (times == 0) {
+      EXPECT_EQ(cells.at(at) + cells.at(at + 1), "");
+      continue;
+    }
+    EXPECT_NEAR(std::stod(cells.at(at)), pi / 2 / w, 1e-8) << w;
+    EXPECT_NEAR(std::stod(cells.at(at + 1)), (pi / 2 + 2 * pi * (times - 1)) / w, 1e-8) << w;
+  }
+  EXPECT_EQ(run_program({"sweep", scene, "--over", "parameters.k=1:4:3", "--map", "last_left", "-o", folder.file("m.svg")}).status, 0);
+}
+
 TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
   const TemporaryFolder folder;
   ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);

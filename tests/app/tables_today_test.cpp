@@ -20,6 +20,28 @@ using testing::Not;
 
 const std::string kRoot = CHAINREEL_SOURCE_FOLDER;
 
+// A title is in no number, nor is the value that a sweep replaces: tables stay as they are. What changes numbers is told.
+TEST(TablesOfToday, AreNotStaleForWhatNoNumberTells) {
+  const TemporaryFolder folder;
+  const std::string body = "model: {links: [0.5, 0.5], masses: [1, 1]}\nduration: 0.3\nmethod: rk4\nevents: [{when: y_G < -0.1, kind: fall}]\n";
+  folder.write("f.yaml", body + "title: A\nparameters: {k: 1}\ntorque: [k, 0]\n");
+  const RunOptions there{.folder = folder.path().string()};
+  const auto run = [&](const Words& words) { return run_program(words, there); };
+  ASSERT_EQ(run({"simulate", "f.yaml", "-o", "out/s.csv", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"sweep", "f.yaml", "--over", "parameters.k=1,2", "-o", "out/w.csv", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"fall", "f.yaml", "--sweep", "parameters.k=1,2", "-o", "out/f.csv", "--quiet"}).status, 0);
+  folder.write("f.yaml", body + "title: B\ntheme: dark\ndraw: [chain]\nparameters: {k: 1}\ntorque: [k, 0]\n");
+  const ProgramResult same = run({"check", "out", "--today"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  folder.write("f.yaml", body + "title: B\nparameters: {k: 3}\ntorque: [k, 0]\n");
+  const ProgramResult other = run({"check", "out", "--today"});
+  EXPECT_EQ(other.status, 1);
+  EXPECT_THAT(other.out, testing::AllOf(HasSubstr("out/s.csv is NOT"), Not(HasSubstr("out/w.csv is NOT")), Not(HasSubstr("out/f.csv is NOT"))));
+  folder.write("f.yaml", body + "title: B\nparameters: {k: 1}\ntorque: [k, 0.1]\n");
+  const ProgramResult all = run({"check", "out", "--today"});
+  EXPECT_THAT(all.out, testing::AllOf(HasSubstr("out/s.csv is NOT"), HasSubstr("out/w.csv is NOT"), HasSubstr("out/f.csv is NOT")));
+}
+
 TEST(TablesOfToday, BesideFiguresAreAskedAndMadeAgain) {
   const TemporaryFolder folder;
   const std::string own = own_model();

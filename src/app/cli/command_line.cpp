@@ -29,6 +29,12 @@ std::vector<std::string>& notes() {
   return list;
 }
 
+// What a variable of the shell leaves that is not set is no value.
+CLI::Option* refusing_empty(CLI::Option* option) {
+  return option->check(CLI::Validator(
+      [](const std::string& word) { return word.empty() ? std::string("is empty, as a variable of the shell is that is not set: leave it out, or give it a value") : std::string(); }, ""));
+}
+
 template <class Target>
 Option add_to(void* command, const std::string& name, Target& target, const std::string& help) {
   return Option(app_of(command)->add_option(name, target, help));
@@ -86,7 +92,7 @@ bool Option::given() const {
 }
 
 Option Command::add_option(const std::string& name, std::string& target, const std::string& help) {
-  return add_to(command_, name, target, help);
+  return Option(refusing_empty(app_of(command_)->add_option(name, target, help)));
 }
 
 Option Command::add_option(const std::string& name, int& target, const std::string& help) {
@@ -98,13 +104,12 @@ Option Command::add_option(const std::string& name, double& target, const std::s
 }
 
 Option Command::add_option(const std::string& name, std::vector<std::string>& target, const std::string& help) {
-  return add_to(command_, name, target, help);
+  return Option(refusing_empty(app_of(command_)->add_option(name, target, help)));
 }
 
 Option Command::add_repeatable(const std::string& name, std::vector<std::string>& target,
                                const std::string& help) {
-  return Option(app_of(command_)
-                    ->add_option(name, target, help)
+  return Option(refusing_empty(app_of(command_)->add_option(name, target, help))
                     ->type_size(1)
                     ->expected(1)
                     ->allow_extra_args(false)

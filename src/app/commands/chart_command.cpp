@@ -87,7 +87,12 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
     // It takes seconds and cannot be asked how far it is.
     Ticker ticker(options.common.quiet);
     if (!options.common.quiet && isatty(STDERR_FILENO) != 0) ticker.say(prepared.scene.name + ": computing the reference");
-    measured.reference = find_reference_run(simulation);
+    try {
+      measured.reference = find_reference_run(simulation, stop_asked);
+    } catch (const Error&) {
+      throw_if_interrupted();
+      throw;
+    }
   }
   LadderOptions ladder;
   ladder.runs = options.runs;

@@ -59,6 +59,7 @@ Chain load_chain(const DynamicsOptions& options) {
   ModelScene model = model_scene_of(options.file, overrides_of(options), "dynamics", honoured);
   model.options.meshes = false;
   Chain chain = read_chain(options.file, model.options);
+  tell_warnings(chain.slips);
   if (const std::string doubt = doubt_of_gravity(chain); !doubt.empty()) tell_warnings({doubt});
   return chain;
 }

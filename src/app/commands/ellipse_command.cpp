@@ -15,6 +15,7 @@
 #include "app/film/target.hpp"
 #include "app/paper/paper.hpp"
 #include "app/paper/pose_page.hpp"
+#include "app/report/run_report.hpp"
 #include "app/today/table_record.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
@@ -197,7 +198,9 @@ ModelScene model_of(const EllipseOptions& options) {
 EllipseJob job_of_model(const EllipseOptions& options) {
   if (options.model.empty()) throw Error(ExitCode::usage, "which model? Name a .urdf, a scene that holds one, or a scene by --along");
   const ModelScene model = model_of(options);
-  EllipseJob job{{read_chain(model.scene.model, model.options), {}, &page_theme(model.scene), model.scene.text_scale}, {}};
+  Chain chain = read_chain(model.scene.model, model.options);
+  tell_warnings(chain.slips);
+  EllipseJob job{{std::move(chain), {}, &page_theme(model.scene), model.scene.text_scale}, {}};
   job.motion.families = families_of(model.scene);
   Motion& motion = job.motion;
   require_end_effector(motion.chain);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -203,7 +204,8 @@ MethodRun run_subject(const Subject& subject, const std::vector<double>& times, 
       [&](double t, ConstVec q, ConstVec qd, double work) {
         const EnergyBalance::State state = balance.at(q, qd, work);
         run.at_end = state.error;
-        run.largest = std::max(run.largest, std::abs(run.at_end));
+        // No number is farther off than any: the work behind a pole of a torque.
+        run.largest = std::isfinite(run.at_end) ? std::max(run.largest, std::abs(run.at_end)) : std::numeric_limits<double>::infinity();
         columns.see(t, state, springs.at(q));
       });
   throw_if_interrupted();
@@ -212,6 +214,7 @@ MethodRun run_subject(const Subject& subject, const std::vector<double>& times, 
   run.curve.method = subject.panel > 0 ? subject.title : method.name;
   run.curve.title = subject.panel > 0 ? subject.title : method.title;
   run.curve.trouble = one_word(trajectory.status);
+  if (run.curve.trouble.empty() && !std::isfinite(run.largest)) run.curve.trouble = "work is no number";
   run.curve.look = subject.panel > 0 ? -1 : int(&method - methods().data());
   return run;
 }

@@ -78,6 +78,7 @@ void add_equations_command(CommandLine& app, void (*run)(const EquationsOptions&
   add_json_option(*command, options->common);
   add_force_option(*command, options->common);
   command->footer("Example: chainreel equations rr.urdf -o rr.tex");
+  options->command = command;
   command->callback([options, run] { run(*options); });
 }
 

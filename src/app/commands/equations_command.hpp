@@ -17,6 +17,7 @@ struct EquationsOptions {
   std::vector<std::string> outputs;
   bool latex = false, document = false, python = false, theta = false;
   CommonOptions common;
+  const Command* command = nullptr;
 };
 
 // `run` is called with what the command line says.

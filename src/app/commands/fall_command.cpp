@@ -5,21 +5,26 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
 #include "app/cli/streams.hpp"
 #include "app/commands/figure.hpp"
+#include "app/film/formats.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/report.hpp"
 #include "app/report/run_report.hpp"
-#include "app/today/table_record.hpp"
+#include "app/sweep/map_axes.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/machine.hpp"
-#include "core/output_file.hpp"
+#include "draw/charts/response_chart.hpp"
+#include "draw/page/house_style.hpp"
 #include "scene/run/fall.hpp"
+#include "scene/run/title.hpp"
+#include "scene/text/read_scene.hpp"
 #include "table/data_table.hpp"
 
 namespace chainreel {
@@ -28,11 +33,14 @@ namespace {
 struct FallOptions {
   std::string scene;
   std::string sweep;
-  std::vector<std::string> outputs;
   bool edges = false;
   int threads = 0;
+  FigureOptions figure;
   CommonOptions common;
-  const Command* command = nullptr;
+
+  bool draws() const {
+    return std::ranges::any_of(figure.outputs, [](const std::string& path) { return find_output_format(path, Shows::still) != nullptr; });
+  }
 };
 
 bool has_failed(const FallRow& row) {
@@ -229,20 +237,49 @@ std::string csv_of(const FallOptions& options, const FallTable& table) {
   return text;
 }
 
+// When runs fall and feet tip, against the key; where how they end changes.
+ResponseChart chart_of(const FallTable& table, const Scene& scene) {
+  ResponseChart chart;
+  chart.title = title_over_runs(scene);
+  chart.subtitle = std::to_string(table.rows.size()) + " runs of " + format_quantity(table.duration, "s") + ", " + table.method;
+  chart.x = curve_axis_of(table.sweep);
+  chart.y_title = "instant [s]";
+  chart.from_zero = true;
+  const double degrees = degrees_of(table.sweep);
+  ResponseCurve falls{"down", {}}, tips{"foot tips", {}};
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const FallRow& row = table.rows[i];
+    const double x = table.sweep.numbers[i] * degrees;
+    falls.points.push_back({x, row.fall_time});
+    tips.points.push_back({x, row.tips});
+  }
+  const auto any = [](const ResponseCurve& curve) { return std::ranges::any_of(curve.points, [](const ResponsePoint& one) { return one.y.has_value(); }); };
+  chart.curves.push_back(falls);
+  if (any(tips)) chart.curves.push_back(tips);
+  if (!std::ranges::all_of(falls.points, [](const ResponsePoint& one) { return one.y.has_value(); }))
+    chart.footer = "Crosses on the axis: not down within " + format_quantity(table.duration, "s") + ".";
+  if (any(tips)) chart.footer += " Behind tipping the foot is held where a real one turns.";
+  for (const FallEdge& edge : table.edges) {
+    const double x = (edge.before + edge.behind) / 2 * degrees;
+    chart.edges.push_back({x, format_significant(x, 4)});
+    chart.footer += " At " + format_significant(x, 4) + " from '" + edge.from + "' to '" + edge.to + "'.";
+  }
+  return chart;
+}
+
 void run_fall(const FallOptions& options) {
   Sweep sweep;
   sweep.values = {""};
   if (!options.sweep.empty()) sweep = parse_sweep(options.sweep, "--sweep");
   if (options.edges && !can_have_edges(sweep))
     throw Error(ExitCode::usage, "--edges looks between the numbers of --sweep: give two at least, like --sweep torque.1=0:60:7");
-  const bool writes = !options.outputs.empty();
-  for (const std::string& output : options.outputs) {
-    refuse_dash(output);
-    table_format_of(output);  // throws for others
-    const OutputFile allowed(output, options.common.force);  // throws where it is not, before anything is computed
-  }
-  TableRecords records(*options.command, options.common.force);
-  records.open(options.outputs, options.outputs);
+  const bool writes = !options.figure.outputs.empty();
+  check_figure_size(options.figure);
+  for (const std::string& output : options.figure.outputs) refuse_dash(output);
+  if (options.draws() && sweep.key.empty()) throw Error(ExitCode::usage, "a picture shows falls against a key: give --sweep, like --sweep torque.1=0:60:7");
+  if (options.draws()) require_curve_axis(sweep, "--sweep " + sweep.key);
+  std::optional<FigureFiles> files;
+  if (writes) files.emplace(options.figure, "", options.common.force);  // throws where one may not be written, before anything is computed
   const int cores = usable_cores();
   const int threads = std::min(options.threads > 0 ? options.threads : cores, int(sweep.values.size()));
   FallTable table;
@@ -259,14 +296,18 @@ void run_fall(const FallOptions& options) {
   tell_warnings(doubts_of_duration(options, table));
   Json report = report_of(options, table);
   const FigureNumbers numbers{csv_of(options, table), [&] { return report; }};
-  for (const std::string& output : options.outputs) write_numbers(output, numbers, options.common.force);
-  records.write();
-  report.update(files_json(options.outputs));
+  std::vector<std::string> written;
+  if (files) {
+    const Scene scene = read_scene(options.scene, overrides_of(options.common));
+    const Fonts fonts(families_of(scene));
+    written = files->write([&] { return response_chart(chart_of(table, scene), chart_look(options.figure, scene, fonts)); }, numbers, fonts);
+  }
+  report.update(files_json(written));
   if (options.common.json)
     print_json(report);
   else if (!options.common.quiet || !writes)
     print_table(table, set_words(options), options.edges);
-  for (const std::string& output : options.outputs)
+  for (const std::string& output : written)
     if (!options.common.quiet && !options.common.json) std::printf("%s\n", output.c_str());
   const auto failed = std::find_if(table.rows.begin(), table.rows.end(), has_failed);
   if (failed == table.rows.end()) return;
@@ -283,12 +324,12 @@ void add_fall_command(CommandLine& app) {
   command->add_option("--sweep", options->sweep,
                       "KEY=a,b,c or KEY=from:to:count, maybe with :log behind it, like torque.1=0:60:7");
   command->add_flag("--edges", options->edges, "between rows that end otherwise, the value at which that changes, by bisection");
-  command->add_repeatable("-o,--output", options->outputs, "a .csv, .json or .npz file (repeatable)");
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
+  add_figure_options(*command, options->figure, options->common, "none");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
-  command->footer("Example: chainreel fall humanoid_fall --sweep parameters.k=0:1200:7 --edges");
-  options->command = command;
+  command->footer("Example: chainreel fall humanoid_fall --sweep parameters.k=0:1200:7 --edges\n"
+                  "         chainreel fall humanoid_fall --sweep parameters.k=0:1200:25 --edges -o out/fall.png");
   command->callback([options] { run_fall(*options); });
 }
 

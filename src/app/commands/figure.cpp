@@ -118,6 +118,7 @@ void write_numbers(const std::string& path, const FigureNumbers& numbers, bool o
 
 FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual, bool overwrite)
     : options_(options), paths_(options.outputs), overwrite_(overwrite), records_(*options.command, overwrite) {
+  std::vector<std::string> pictures;  // of beside_
   if (paths_.empty()) paths_.push_back(usual);
   for (const std::string& path : paths_) check_figure_path(path);
   refuse_twice(paths_);
@@ -128,8 +129,11 @@ FigureFiles::FigureFiles(const FigureOptions& options, const std::string& usual,
     require_own_sidecar(table, overwrite);
     const OutputFile beside_it(table, overwrite);
     beside_.push_back(table);
+    pictures.push_back(path);
   }
-  if (!measures(options.command->words()) && !options.is_one_of_several) records_.open(paths_, paths_);
+  if (measures(options.command->words()) || options.is_one_of_several) return;
+  records_.open(paths_, paths_);
+  records_.open(beside_, pictures);  // each is made again with its picture
 }
 
 ClipMemory memory_of_chart(const FigureOptions& options) {

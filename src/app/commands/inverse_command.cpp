@@ -54,6 +54,7 @@ Recorded load(const InverseOptions& options) {
     ModelScene model = model_scene_of(options.file, overrides, "inverse", keys_of_models(OfModel::mechanism));
     model.options.meshes = false;
     Recorded recorded{read_chain(options.file, model.options), {}, nullptr};
+    tell_warnings(recorded.chain.slips);
     if (const std::string doubt = doubt_of_gravity(recorded.chain); !doubt.empty()) tell_warnings({doubt});
     recorded.motion = motion_of(recorded.chain, options);
     return recorded;

@@ -279,6 +279,7 @@ void snapshot_model(const SnapshotOptions& options) {
   const ModelScene model =
       model_scene_of(options.file, overrides_of(options), "snapshot", keys_of_models(OfModel::picture));
   const Chain chain = read_chain(options.file, model.options);
+  tell_warnings(chain.slips);
   refuse_mistyped_joints(chain, options.poses);
   const bool is_named = std::any_of(options.poses.begin(), options.poses.end(), [&](const std::string& text) {
     return !named_pose(chain, text).name.empty();

@@ -1,6 +1,9 @@
 #include "app/sweep/map_axes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 #include "core/error.hpp"
 
@@ -9,6 +12,7 @@ namespace chainreel {
 std::string title_of_key(const std::string& key) {
   if (key == "step") return "step [s]";
   if (key == "payload.mass") return "payload [kg]";
+  if (key.starts_with("push.") && key.find("force.") != std::string::npos) return "push, force " + key.substr(key.rfind('.') + 1) + " [N]";
   for (const std::string prefix : {"parameters.", "start.q.", "start.qd."}) {
     if (!key.starts_with(prefix)) continue;
     const std::string rest = key.substr(prefix.size());
@@ -40,6 +44,41 @@ Axis map_axis(const Sweep& sweep) {
   }
   axis.title = title_of_axis(sweep);
   return axis;
+}
+
+// By what its numbers are shown: angles are read in degrees.
+double degrees_of(const Sweep& sweep) {
+  return !sweep.logarithmic && title_of_axis(sweep).find("[rad]") != std::string::npos ? 180 / std::numbers::pi : 1;
+}
+
+namespace {
+
+// With ticks at the values, where these are few, and angles in degrees, as they are read.
+Axis in_its_units(const Sweep& sweep, Axis axis) {
+  constexpr std::size_t kFewValues = 12;
+  if (!sweep.logarithmic && sweep.numbers.size() <= kFewValues) axis.at = sweep.numbers;
+  const double degrees = degrees_of(sweep);
+  if (degrees == 1) return axis;
+  axis.title.replace(axis.title.find("[rad]"), 5, "[deg]");
+  for (double* end : {&axis.low, &axis.high}) *end *= degrees;
+  for (double& tick : axis.at) tick = std::round(1e9 * degrees * tick) / 1e9;
+  return axis;
+}
+
+}  // namespace
+
+Axis map_axis_in_units(const Sweep& sweep) {
+  return in_its_units(sweep, map_axis(sweep));
+}
+
+Axis curve_axis_of(const Sweep& sweep) {
+  return in_its_units(sweep, {sweep.logarithmic ? Scale::log : Scale::linear, sweep.numbers.front(), sweep.numbers.back(), title_of_axis(sweep)});
+}
+
+void require_curve_axis(const Sweep& sweep, const std::string& option) {
+  const std::vector<double>& v = sweep.numbers;
+  if (v.size() < 2 || !std::ranges::is_sorted(v, std::less_equal<>{}) || (sweep.logarithmic && !(v.front() > 0)))
+    throw Error(ExitCode::usage, option + " of a picture takes rising numbers: KEY=from:to:count, or a list like KEY=0,1,2.5");
 }
 
 void require_map_axis(const Sweep& sweep, const std::string& option) {

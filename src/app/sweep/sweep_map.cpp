@@ -72,36 +72,10 @@ std::string method_of(const Grid& grid, const Scene& scene) {
   return varies_method(grid) || scene.chooses_method() ? "" : ", " + method_title(scene.method) + method_text(scene).substr(scene.method.size());
 }
 
-// By what its numbers are shown: angles are read in degrees.
-double degrees_of(const Sweep& sweep) {
-  return !sweep.logarithmic && title_of_axis(sweep).find("[rad]") != std::string::npos ? 180 / std::numbers::pi : 1;
-}
-
 // "peak_tau [N m]" of "peak_tau1 [N m]".
 std::string stem_column(const std::string& column) {
   const ColumnName name(column);
   return kPeak + without_number(plain_name(column)) + (name.unit.empty() ? "" : " [" + name.unit + "]");
-}
-
-// With ticks at the values, where these are few, and angles in degrees, as they are read.
-Axis in_its_units(const Sweep& sweep, Axis axis) {
-  constexpr std::size_t kFewValues = 12;
-  if (!sweep.logarithmic && sweep.numbers.size() <= kFewValues) axis.at = sweep.numbers;
-  const double degrees = degrees_of(sweep);
-  if (degrees == 1) return axis;
-  axis.title.replace(axis.title.find("[rad]"), 5, "[deg]");
-  for (double* end : {&axis.low, &axis.high}) *end *= degrees;
-  for (double& tick : axis.at) tick = std::round(1e9 * degrees * tick) / 1e9;
-  return axis;
-}
-
-Axis axis_of(const Sweep& sweep) {
-  return in_its_units(sweep, map_axis(sweep));
-}
-
-// From the first value to the last.
-Axis curve_axis_of(const Sweep& sweep) {
-  return in_its_units(sweep, {sweep.logarithmic ? Scale::log : Scale::linear, sweep.numbers.front(), sweep.numbers.back(), title_of_axis(sweep)});
 }
 
 }  // namespace
@@ -114,12 +88,7 @@ void require_map_grid(const Grid& grid) {
   const std::vector<Sweep>& axes = grid.axes();
   if (axes.size() > 2)
     throw Error(ExitCode::usage, "a picture shows one key as curves, or two as a map: give --over once or twice, like --over start.q.1=0:90deg:10 --over payload.mass=0:5:6");
-  if (axes.size() == 1) {
-    const std::vector<double>& v = axes.front().numbers;
-    if (v.size() < 2 || !std::ranges::is_sorted(v, std::less_equal<>{}) || (axes.front().logarithmic && !(v.front() > 0)))
-      throw Error(ExitCode::usage, "--over " + axes.front().key + " of a picture takes rising numbers: KEY=from:to:count, or a list like KEY=0,1,2.5");
-    return;
-  }
+  if (axes.size() == 1) return require_curve_axis(axes.front(), "--over " + axes.front().key);
   for (const Sweep& axis : axes) require_map_axis(axis, "--over " + axis.key);
 }
 
@@ -209,8 +178,8 @@ StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& 
   }).front();
   map.title = title_over_runs(scene);
   map.subtitle = runs_text(grid, scene);
-  map.x = axis_of(x);
-  map.y = axis_of(y);
+  map.x = map_axis_in_units(x);
+  map.y = map_axis_in_units(y);
   map.is_linear = true;
   map.error_title = title_of_column(column);
   if (std::ranges::count(last, column) > 0) {

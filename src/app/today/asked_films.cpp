@@ -25,7 +25,8 @@ class AuditsOfFolders {
   std::string telling_of(const std::string& path) {
     const fs::path file(path);
     std::error_code code;
-    if (lower_case_ending(path) == ".json") return is_table(path) ? path + ".json" : "";  // by itself it would be an audit
+    if (find_output_format(path, Shows::table) == nullptr && is_table(path)) return path + ".json";
+    if (lower_case_ending(path) == ".json") return "";  // by itself it would be an audit
     if (fs::is_regular_file(audit_path_of(path), code)) return path;
     const auto [folder, is_new] = folders_.try_emplace(file.has_parent_path() ? file.parent_path().string() : ".");
     if (is_new) read(folder->first, folder->second);
@@ -130,7 +131,8 @@ class ScenesRemembered {
 }  // namespace
 
 bool is_table(const std::string& path) {
-  return find_output_format(path, Shows::table) != nullptr || (lower_case_ending(path) == ".json" && is_own_sidecar(path + ".json"));
+  static const std::vector<std::string> kBesideRecords = {".json", ".tex", ".py", ".txt"};
+  return find_output_format(path, Shows::table) != nullptr || (std::ranges::count(kBesideRecords, lower_case_ending(path)) > 0 && is_own_sidecar(path + ".json"));
 }
 
 AskedFilms asked_films(const std::vector<std::string>& paths) {

@@ -38,6 +38,7 @@ AskedFilms asked_films(const std::vector<std::string>& paths);
 // lies beside the files that it needs. Throws Error (exit 3) where there is none.
 std::string scene_behind(const AskedFilm& film);
 
+// Also equations and JSON, where the record of a command lies beside them.
 bool is_table(const std::string& path);
 
 }  // namespace chainreel

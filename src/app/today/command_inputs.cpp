@@ -94,7 +94,10 @@ std::vector<std::string> changes_of(const Json& before, const Json& now, const s
   if (word_of(before, "scene") != word_of(now, "scene")) {
     words = explain_scene_texts(word_of(before, "scene"), word_of(now, "scene"));
     if (words.empty()) words.emplace_back("is another one");
-    std::erase_if(words, [&](const std::string& one) { return std::ranges::count(without, one.substr(0, one.find_first_of(" :"))) > 0; });
+    std::erase_if(words, [&](const std::string& one) {
+      const std::string key = one.substr(0, one.find_first_of(" :"));
+      return std::ranges::any_of(without, [&](const std::string& other) { return key == other || key.starts_with(other + "."); });
+    });
   }
   const Json models = before.value("models", Json::array()), tables = before.value("tables", Json::array());
   const Json models_now = now.value("models", Json::array()), tables_now = now.value("tables", Json::array());
@@ -129,9 +132,12 @@ bool are_known(const Json& inputs) {
 
 std::vector<std::string> keys_without_numbers(const std::vector<std::string>& words) {
   // Tables of other commands have titles in their heads.
-  static const std::vector<std::string> kCommands = {"simulate", "sweep", "fall", "inverse"};
+  static const std::vector<std::string> kCommands = {"simulate", "sweep", "fall", "inverse", "equations"};
   if (words.empty() || std::ranges::count(kCommands, words.front()) == 0) return {};
   std::vector<std::string> keys{"title", "acknowledge", "draw", "theme", "text_scale", "style", "annotate"};
+  if (words.front() == "equations")  // of the mechanism
+    keys.insert(keys.end(), {"start", "torque", "push", "method", "step", "tolerance", "order", "accuracy", "duration", "ellipse", "camera", "plot", "layout", "video",
+                             "slow_motion", "hold", "events", "expect"});
   for (std::size_t i = 0; i + 1 < words.size(); ++i)
     if (words[i] == "--over" || words[i] == "--sweep") keys.push_back(words[i + 1].substr(0, words[i + 1].find('=')));
   return keys;

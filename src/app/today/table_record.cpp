@@ -3,11 +3,11 @@
 #include <filesystem>
 
 #include "app/film/clip_origin.hpp"
+#include "app/film/formats.hpp"
 #include "app/report/sidecar.hpp"
 #include "app/today/command_inputs.hpp"
 #include "core/error.hpp"
 #include "core/output_file.hpp"
-#include "table/data_table.hpp"
 
 namespace chainreel {
 namespace {
@@ -31,7 +31,7 @@ void forget_record(const std::string& table) {
 
 void TableRecords::open(const std::vector<std::string>& paths, const std::vector<std::string>& outputs) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (paths[i] == "-" || !find_table_format(paths[i])) continue;
+    if (paths[i] == "-" || find_output_format(paths[i], Shows::still) != nullptr) continue;
     require_own_sidecar(record_of(paths[i]), overwrite_);
     tables_.push_back({paths[i], outputs[i]});
   }

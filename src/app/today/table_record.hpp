@@ -17,7 +17,7 @@ void forget_record(const std::string& table);
 class TableRecords {
  public:
   TableRecords(const Command& command, bool overwrite) : command_(command), overwrite_(overwrite) {}
-  // For those of the paths that are tables in files, before they are computed; `outputs`: the -o of each. Reads the command's files, once. Throws Error (exit 6)
+  // For those of the paths that are files and no pictures, before they are computed; `outputs`: the -o of each. Reads the command's files, once. Throws Error (exit 6)
   // where a file that is not ours has a record's name.
   void open(const std::vector<std::string>& paths, const std::vector<std::string>& outputs);
   // Of a figure's memory those of its poses that have names beside its model.

@@ -55,6 +55,26 @@ void draw_points(Picture& picture, const PlotFrame& frame, const ResponseCurve& 
       draw_marker(picture, frame.at({point.x, *point.y}), point.is_doubtful ? Marker::ring : style.marker, style.marker_size, style.color, theme.background);
 }
 
+void draw_edges(Picture& picture, const PlotFrame& frame, const ResponseChart& data, const ChartLook& look) {
+  constexpr double kBesideLine = 0.008;
+  const PlotStyle style = look.plot_style();
+  double taken = -HUGE_VAL;
+  int line = 0;
+  for (const ResponseEdge& edge : data.edges) {
+    const double x = frame.at_x(edge.x), em = style.text(size::kTick);
+    if (!(x >= frame.box.x0 && x <= frame.box.x1)) continue;
+    CurveStyle dashed{look.theme->muted, size::kPlotLineSecondary, Dash::dashed, Marker::none};
+    const Point ends[] = {{edge.x, frame.y.low}, {edge.x, frame.y.high}};
+    draw_curve(picture, frame, ends, dashed, *look.theme);
+    const TextLine word = lay_out_text(*look.fonts, edge.value, {Face::label, em, look.theme->muted, Align::left});
+    // To its left where the frame ends; one line lower where the last one's word still stands.
+    const double left = x + kBesideLine + word.advance <= frame.box.x1 ? x + kBesideLine : x - kBesideLine - word.advance;
+    line = left < taken + kBesideLine ? line + 1 : 0;
+    taken = std::max(taken, left + word.advance);
+    draw_text(picture, word, {left, frame.box.y1 - (1 + kLinePitch * line) * em - kBesideLine});
+  }
+}
+
 }  // namespace
 
 Picture response_chart(const ResponseChart& data, const ChartLook& look) {
@@ -69,6 +89,7 @@ Picture response_chart(const ResponseChart& data, const ChartLook& look) {
   const PlotFrame frame = lay_out_plot({area.x0, area.y0, area.x1 - labels, area.y1}, x_axis(data.x), y_axis(data), style);
   require_room_for_axes(frame, look);
   draw_axes(picture, frame, style);
+  draw_edges(picture, frame, data, look);
   std::vector<EndLabel> ends;
   for (std::size_t i = 0; i < data.curves.size(); ++i) {
     const CurveStyle look_of_curve = curve_style(int(i), *look.theme, look.text_scale);

@@ -20,6 +20,12 @@ struct ResponseCurve {
   std::vector<ResponsePoint> points;  // x rising
 };
 
+// Where what becomes of runs changes: a line across the plot, its value at the top.
+struct ResponseEdge {
+  double x = 0;
+  std::string value;
+};
+
 struct ResponseChart {
   std::string title, subtitle;
   Axis x;
@@ -27,6 +33,7 @@ struct ResponseChart {
   bool from_zero = false;  // sizes, whose axis begins at zero
   std::vector<ResponseCurve> curves;
   std::string footer;
+  std::vector<ResponseEdge> edges{};
 };
 
 // Runs without a value are crosses on the axis, doubtful ones rings.

@@ -29,7 +29,7 @@ CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, 
   CurveStyle style = curve_style(int(runs > 1 ? run : curve), theme);
   style.marker = Marker::none;
   if (runs > 1) {
-    if (runs == 2) style.color = run == 0 ? theme.side_a : theme.side_b;
+    style.color = variant_color(theme, int(run), int(runs));
     style.dash = plot.curves.size() > 1 ? Dash(curve % 4) : Dash::solid;
     return style;
   }

@@ -41,7 +41,7 @@ class TimeLayer : public Layer {
 
 // "0.25x" in a rounded box beside the time, for as long as the film shows the motion slower or faster than it was; as
 // wide as the widest of the film's speeds asks for, so that nothing moves when they change. Where the speed changes over several
-// frames it stands from halfway on, whole, so that no still has it half faded.
+// frames it stands from halfway on, whole, so that no still has it half faded. While the film stands still, two bars are in it.
 class SpeedBox : public Layer {
  public:
   explicit SpeedBox(const Stage& stage) : stage_(&stage), text_size_(scaled(size::kAxis, stage.page.text_scale)) {
@@ -66,11 +66,27 @@ class SpeedBox : public Layer {
                         {right.x - r, middle},
                         r,
                         {theme.background, theme.ink, size::kLinkOutline}});
+    if (stands_still(k)) return draw_pause(picture, {right.x - width_ / 2, middle}, 0.7 * r);
     const TextStyle style{Face::label, text_size_, theme.ink, Align::center};
     draw_text(picture, lay_out_text(stage_->fonts, speed_text(stretch->speed), style), {right.x - width_ / 2, right.y});
   }
 
  private:
+  bool stands_still(int k) const {
+    const std::vector<double>& times = stage_->times;
+    const auto at = std::size_t(k);
+    return (at > 0 && times[at - 1] == times[at]) || (at + 1 < times.size() && times[at + 1] == times[at]);
+  }
+
+  // Two bars.
+  void draw_pause(Picture& picture, Point middle, double half) const {
+    const Paint paint{stage_->theme.ink, {}, 0};
+    for (const double side : {-1.0, 1.0}) {
+      const double x = middle.x + side * half / 2;
+      picture.add(Capsule{{x, middle.y - half / 2}, {x, middle.y + half / 2}, half / 5, paint});
+    }
+  }
+
   const Stage* stage_;
   double text_size_, width_ = 0;  // units of H
 };

@@ -31,6 +31,15 @@ Theme styled(Theme theme, const StyleColors& colors, const Style& style) {
     if (name == "curves")
       for (std::size_t i = 0; i < std::min(values.size(), theme.curve.size()); ++i) theme.curve[i] = color_of(values[i]);
   }
+  // More than two variants have the style's curves, then its sides.
+  const auto add_variant = [&theme](Color color) {
+    const auto end = theme.variant.begin() + theme.variants;
+    if (std::find(theme.variant.begin(), end, color) == end) theme.variant[std::size_t(theme.variants++)] = color;
+  };
+  if (const auto curves = colors.find("curves"); curves != colors.end())
+    for (std::size_t i = 0; i < std::min(curves->second.size(), theme.curve.size()); ++i) add_variant(theme.curve[i]);
+  for (const char* side : {"side_a", "side_b"})
+    if (colors.contains(side)) add_variant(*color_named(theme, side));
   theme.lines = style.lines;
   theme.trail = style.trail;
   return theme;
@@ -107,7 +116,7 @@ class ShownColors {
     if (name == "constraint") return is_tied || has_foot;
     if (name == "torque")
       return has_foot || (shows({"torque", "torque_label", "target", "springs", "equation"}) && any(&is_driven));
-    if (name == "side_a" || name == "side_b") return panels_.size() == 2;
+    if (name == "side_a" || name == "side_b") return panels_.size() >= 2;
     if (name == "curves")
       return shows({"trail", "ghosts"}) || any([](const Scene& one) { return !one.plot.empty(); }) ||
              (page_.layout != PageLayout::scene && !is_transparent(page_));

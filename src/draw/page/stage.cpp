@@ -30,7 +30,7 @@ Color between(Color from, Color to, double share) {
 }  // namespace
 
 Variant variant_of(int i, int count, bool ghost, const Theme& theme) {
-  const Color color = count == 2 ? (i == 0 ? theme.side_a : theme.side_b) : curve_style(i, theme).color;
+  const Color color = variant_color(theme, i, count);
   auto own = std::make_shared<Theme>(theme);
   for (std::size_t link = 0; link < own->link.size(); ++link)
     own->link[link] = between(theme.background, color, link % 2 == 0 ? kFirstTone : kSecondTone);

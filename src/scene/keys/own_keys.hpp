@@ -36,6 +36,8 @@ std::string torque_text(const Scene& scene);
 KeyText told_push();
 void read_push(Fields& fields, Scene& scene);
 std::string push_text(const Scene& scene);
+// Forces that parameters give. After all keys were read.
+void find_forces(Fields& fields, Scene& scene);
 
 // --- what was recorded of it: motion_keys.cpp
 KeyText told_motion();

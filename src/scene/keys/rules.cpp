@@ -150,6 +150,7 @@ void check_together(Fields& fields, Scene& scene) {
   check_motion(fields, scene);
   check_payload(fields, scene);
   check_foot(fields, scene);
+  find_forces(fields, scene);
   check_baumgarte(fields, scene);
   check_sides(fields, scene);
   check_frames(fields, scene);

@@ -162,7 +162,7 @@ KeyText told_colors(const char* name, const char* help) {
   std::vector<KeyText> parts;
   for (const Name& color : kStyleColors) parts.push_back(told(color.name, KeyForm::text, color.meaning));
   parts.push_back(told_list("links", told("", KeyForm::text, ""), "one to four, of links in turn"));
-  parts.push_back(told_list("curves", told("", KeyForm::text, ""), "one to three, of the curves of joints 1, 2, 3"));
+  parts.push_back(told_list("curves", told("", KeyForm::text, ""), "one to three, of the curves of joints 1, 2, 3, and of three variants or more"));
   return told_record(name, std::move(parts), help);
 }
 

@@ -116,7 +116,7 @@ std::string doubt_of_gravity(const Chain& chain) {
 }
 
 std::vector<std::string> doubts_of_scene(const Scene& scene, const Chain& chain) {
-  std::vector<std::string> doubts;
+  std::vector<std::string> doubts = chain.slips;
   for (const std::string& doubt : doubts_of_pose(chain, scene.start.q, scene.start.written_q)) doubts.push_back("start.q: " + doubt);
   for (std::string doubt : {doubt_of_gravity(chain), doubt_of_limit(scene.limit, scene.expect, chain)})
     if (!doubt.empty()) doubts.push_back(std::move(doubt));

@@ -10,7 +10,7 @@
 namespace chainreel {
 namespace {
 
-constexpr const char* kWithExpressions[] = {"torque", "constraints", "contact_force", "events", "plot"};
+constexpr const char* kWithExpressions[] = {"torque", "push", "constraints", "contact_force", "events", "plot"};
 
 bool is_of_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

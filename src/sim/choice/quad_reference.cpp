@@ -20,6 +20,9 @@ constexpr double kPerturbation = 1e-10;
 constexpr double kPerturbedTolerance = 1e-16;
 constexpr int kPerturbedOrder = 22;
 
+// Some ten times those of any scene that ends: half a minute.
+constexpr long kMostAttempts = 8000, kMostExpansions = 100'000;
+
 struct States {
   std::vector<Quad> q, v;  // n numbers a time
 };
@@ -53,22 +56,25 @@ std::vector<Quad> in_quad(const std::vector<double>& x) {
 
 }  // namespace
 
-std::optional<QuadReference> quad_reference(const Simulation& simulation, std::span<const double> times) {
+std::optional<QuadReference> quad_reference(const Simulation& simulation, std::span<const double> times, const StopRequest& stop) {
   const std::unique_ptr<QuadSystem> system = make_quad_system(simulation);
   if (!system) return {};
   const std::vector<Quad> q0 = in_quad(simulation.q0), v0 = in_quad(simulation.qd0);
   QuadExtrapolation extrapolation(*system, kColumns, kTolerance);
+  extrapolation.set_limits(stop, kMostAttempts);
   QuadReference reference;
   std::optional<States> first, second;
   if (has_series(simulation)) {
     LongSeries<Quad> series(simulation.chain, *simulation.torque->affine(), kOrder, kTolerance);
+    series.set_limits(stop, kMostExpansions);
     first = states_at(series, q0, v0, times);
-    second = states_at(extrapolation, q0, v0, times);
+    if (first) second = states_at(extrapolation, q0, v0, times);
     reference.how = "Taylor series beside extrapolation of the midpoint rule, in quadruple precision";
   } else {
     QuadExtrapolation other(*system, kOtherColumns, kTolerance * 1e-2);
+    other.set_limits(stop, kMostAttempts);
     first = states_at(extrapolation, q0, v0, times);
-    second = states_at(other, q0, v0, times);
+    if (first) second = states_at(other, q0, v0, times);
     reference.how = "extrapolation of the midpoint rule at two orders, in quadruple precision";
   }
   if (!first || !second) return {};
@@ -83,7 +89,7 @@ std::optional<QuadReference> quad_reference(const Simulation& simulation, std::s
   return reference;
 }
 
-std::optional<double> quad_amplification(const Simulation& simulation, double end) {
+std::optional<double> quad_amplification(const Simulation& simulation, double end, const StopRequest& stop) {
   const std::unique_ptr<QuadSystem> system = make_quad_system(simulation);
   if (!system) return {};
   const bool by_series = has_series(simulation);
@@ -92,9 +98,11 @@ std::optional<double> quad_amplification(const Simulation& simulation, double en
     const double times[] = {end};
     if (by_series) {
       LongSeries<Quad> series(simulation.chain, torque, kPerturbedOrder, kPerturbedTolerance);
+      series.set_limits(stop, kMostExpansions);
       return states_at(series, q0, v0, times);
     }
     QuadExtrapolation extrapolation(*system, kOtherColumns, kPerturbedTolerance);
+    extrapolation.set_limits(stop, kMostAttempts);
     return states_at(extrapolation, q0, v0, times);
   };
   std::vector<Quad> q0 = in_quad(simulation.q0), v0 = in_quad(simulation.qd0);
@@ -188,6 +196,7 @@ bool QuadExtrapolation::run_to(Quad end) {
   while (t_ < end) {
     const bool last = t_ + h_ >= end;
     const Quad h = last ? end - t_ : h_;
+    if (attempts_++ >= most_ || (stop_ && stop_(double(t_)))) return false;
     const double error = attempt(h);
     const double factor =
         std::isfinite(error)
@@ -295,7 +304,7 @@ double LongSeries<T>::longest_step() const {
 template <class T>
 bool LongSeries<T>::run_to(T end) {
   while (t_ < end) {
-    if (expansions_ >= most_) return false;
+    if (expansions_ >= most_ || (stop_ && stop_(double(t_)))) return false;
     ++expansions_;
     series_.expand(t_, q_, v_, order_, c_);
     const double longest = longest_step();

@@ -23,14 +23,14 @@ struct QuadReference {
 };
 
 // The states at `times` (rising, not negative) of the simulation's chain and torques, whatever its method.
-// Nothing where they cannot be had in quadruple precision (see make_quad_system), or where the motion ends
-// before the last of the times.
-std::optional<QuadReference> quad_reference(const Simulation& simulation, std::span<const double> times);
+// Nothing where they cannot be had in quadruple precision (see make_quad_system), where the motion ends
+// before the last of the times, where that takes more steps than anybody waits for, as at a pole of a torque, and where `stop` says so.
+std::optional<QuadReference> quad_reference(const Simulation& simulation, std::span<const double> times, const StopRequest& stop = {});
 
 // How much an error of the start has grown at `end`: the largest over small errors of single coordinates and
 // rates, of the coordinates; at least 1. Times 2^-53 it is what no run in double precision gets below.
 // Nothing where there is no reference.
-std::optional<double> quad_amplification(const Simulation& simulation, double end);
+std::optional<double> quad_amplification(const Simulation& simulation, double end, const StopRequest& stop = {});
 
 // Extrapolation of the midpoint rule in quadruple precision: W. Gragg, SIAM Journal on Numerical Analysis 2
 // (1965) 384-403; R. Bulirsch, J. Stoer, Numerische Mathematik 8 (1966) 1-13; E. Hairer, S. Norsett, G.
@@ -66,6 +66,8 @@ class QuadExtrapolation {
   QuadExtrapolation(QuadSystem& system, int columns, double tolerance);
 
   void start(Quad t, std::vector<Quad> q, std::vector<Quad> v);
+  // Ends run_to where it says so, or behind so many attempts at steps of all its calls.
+  void set_limits(const StopRequest& stop, long most) { stop_ = stop, most_ = most; }
   // Moves to `end`; false where no step is small enough.
   bool run_to(Quad end);
 
@@ -86,6 +88,8 @@ class QuadExtrapolation {
   std::vector<Quad> q_, v_;
   std::vector<std::vector<Quad>> table_;  // the last row so far
   std::vector<Quad> y_, before_, f_;
+  StopRequest stop_;
+  long most_ = std::numeric_limits<long>::max(), attempts_ = 0;
 };
 
 // The Taylor method with more digits than doubles have, for references: a step goes as far as the last four terms allow. For
@@ -98,6 +102,7 @@ class LongSeries {
   void start(T t, std::vector<T> q, std::vector<T> v);
   // Ends run_to behind so many expansions of all its calls.
   void set_most_expansions(long most) { most_ = most; }
+  void set_limits(const StopRequest& stop, long most) { stop_ = stop, most_ = most; }
   long expansions() const { return expansions_; }
   // Moves to `end`; false where no step is small enough, or the expansions are spent.
   bool run_to(T end);
@@ -112,6 +117,7 @@ class LongSeries {
   std::size_t n_;
   int order_;
   double tolerance_;
+  StopRequest stop_;
   long most_ = std::numeric_limits<long>::max(), expansions_ = 0;
   T t_ = 0;
   std::vector<T> q_, v_, c_;

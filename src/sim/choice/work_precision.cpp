@@ -212,17 +212,20 @@ std::vector<double> instants_of(double duration) {
   return times;
 }
 
-Trajectory run(Simulation& simulation, const MethodSetting& setting, std::span<const double> times) {
+Trajectory run(Simulation& simulation, const MethodSetting& setting, std::span<const double> times, const StopRequest& stop) {
+  constexpr long kMostEvaluations = 20'000'000;  // a minute of a long chain
   apply(setting, simulation);
-  Trajectory trajectory = simulate(simulation, times);
+  simulation.most_evaluations = kMostEvaluations;
+  Trajectory trajectory = simulate(simulation, times, stop);
+  simulation.most_evaluations = 0;
   if (trajectory.status != RunStatus::finished || trajectory.size() == 0)
-    throw Error(ExitCode::numerical, "no reference: " + to_string(setting) + " " + trajectory.trouble);
+    throw Error(ExitCode::numerical, "no reference: " + to_string(setting) + " " + (trajectory.trouble.empty() ? "takes longer than anybody waits for" : trajectory.trouble));
   return trajectory;
 }
 
 // By how much errors of a start coordinate or rate grow, one by one; the largest. Rotations of a floating
 // base are left alone.
-double amplification_of(Simulation& simulation, const MethodSetting& setting, ConstVec q_at_end) {
+double amplification_of(Simulation& simulation, const MethodSetting& setting, ConstVec q_at_end, const StopRequest& stop) {
   const double end[] = {simulation.duration};
   double largest = 1;
   for (std::vector<double>* start : {&simulation.q0, &simulation.qd0}) {
@@ -231,7 +234,7 @@ double amplification_of(Simulation& simulation, const MethodSetting& setting, Co
       const double x0 = x;
       x = x0 + kPush;
       const double moved = x - x0;
-      largest = std::max(largest, apart(run(simulation, setting, end).q_at(0), q_at_end) / moved);
+      largest = std::max(largest, apart(run(simulation, setting, end, stop).q_at(0), q_at_end) / moved);
       x = x0;
     }
   }
@@ -255,22 +258,22 @@ double qd_scale_of(Simulation& simulation) {
   return rate > 0 && rate < change * simulation.duration ? rate / change : simulation.duration;
 }
 
-std::optional<LadderReference> by_quads(const Simulation& simulation, const std::vector<double>& times) {
-  const auto quads = quad_reference(simulation, times);
-  const auto amplification = quad_amplification(simulation, simulation.duration);
+std::optional<LadderReference> by_quads(const Simulation& simulation, const std::vector<double>& times, const StopRequest& stop) {
+  const auto quads = quad_reference(simulation, times, stop);
+  const auto amplification = quads ? quad_amplification(simulation, simulation.duration, stop) : std::nullopt;
   if (!quads || !amplification) return std::nullopt;
   return LadderReference{{times, quads->q, quads->qd, 1}, *std::ranges::max_element(quads->uncertainty), quads->uncertainty.back(), *amplification, quads->how};
 }
 
 // For torques that cannot be had in quadruple precision. Between the instants steps are short enough for dense output to lose nothing; where
 // steps of another length end elsewhere, it shows how little.
-LadderReference by_doubles(Simulation& simulation, const std::vector<double>& times) {
+LadderReference by_doubles(Simulation& simulation, const std::vector<double>& times, const StopRequest& stop) {
   constexpr double kFirstSteps = 0.5, kSecondSteps = 0.31;  // of the distance of instants
   const MethodSetting first{&find_method("dop853"), {1e-14, 0}, 0}, second{&find_method("radau5"), {1e-11, 0}, 0};
   const double longest_step = simulation.longest_step, end[] = {simulation.duration};
   const auto with_steps = [&](double share) {
     simulation.longest_step = share * times.front();
-    Trajectory one = run(simulation, first, times);
+    Trajectory one = run(simulation, first, times, stop);
     simulation.longest_step = longest_step;
     return one;
   };
@@ -278,21 +281,21 @@ LadderReference by_doubles(Simulation& simulation, const std::vector<double>& ti
   const ConstVec last = one.q_at(one.size() - 1);
   LadderReference reference;
   reference.run = {times, one.q, one.qd, 1};
-  reference.final_uncertainty = apart(last, run(simulation, second, end).q_at(0));
+  reference.final_uncertainty = apart(last, run(simulation, second, end, stop).q_at(0));
   reference.uncertainty = reference.final_uncertainty;
   for (int k = 0; k < one.size(); ++k) reference.uncertainty = std::max(reference.uncertainty, apart(one.q_at(k), other.q_at(k)));
-  reference.amplification = amplification_of(simulation, first, last);
+  reference.amplification = amplification_of(simulation, first, last, stop);
   reference.how = "dop853 at 1e-14 beside radau5, in doubles";
   return reference;
 }
 
 }  // namespace
 
-LadderReference find_reference_run(Simulation& simulation) {
+LadderReference find_reference_run(Simulation& simulation, const StopRequest& stop) {
   const MethodSetting own{simulation.method, simulation.options, simulation.step};
   const std::vector<double> times = instants_of(simulation.duration);
-  const auto quads = by_quads(simulation, times);
-  LadderReference reference = quads ? *quads : by_doubles(simulation, times);
+  const auto quads = by_quads(simulation, times, stop);
+  LadderReference reference = quads ? *quads : by_doubles(simulation, times, stop);
   reference.run.qd_scale = qd_scale_of(simulation);
   apply(own, simulation);
   return reference;

@@ -84,6 +84,6 @@ struct LadderReference {
 
 // The simulation's own method is left out of it and unchanged. Throws Error (numerical) where the motion has
 // no end to compare with.
-LadderReference find_reference_run(Simulation& simulation);
+LadderReference find_reference_run(Simulation& simulation, const StopRequest& stop = {});
 
 }  // namespace chainreel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -57,6 +58,23 @@ bool LimitWatch::check_state(double t, ConstVec q, ConstVec qd) {
     }
   }
   return added;
+}
+
+double LimitWatch::distance(std::size_t measure, ConstVec q, ConstVec qd, ConstVec tau) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  const Watched& one = watched_[measure / 4];
+  const Joint& joint = *one.joint;
+  const double value = joint.ratio * q[std::size_t(joint.q_index)] + joint.offset;
+  switch (measure % 4) {
+    case 0:
+      return one.position_passed ? kFar : joint.limit.upper - value;
+    case 1:
+      return one.position_passed ? kFar : value - joint.limit.lower;
+    case 2:
+      return one.velocity_passed ? kFar : joint.limit.velocity - std::abs(joint.ratio * qd[std::size_t(joint.v_index)]);
+    default:
+      return one.effort_passed || !one.has_torque || tau.empty() ? kFar : joint.limit.effort - std::abs(tau[std::size_t(joint.v_index)]);
+  }
 }
 
 // The torque of a joint that passes its effort; null of one that does not.

@@ -39,6 +39,11 @@ class LimitWatch {
   bool check_effort(double t, Vec tau, bool clamp);  // cuts tau where `clamp`
   void cut(Vec tau) const;                           // and says nothing of it
 
+  // How far within each limit a state is, at most `measures()` of them: position above and below, rate and effort of each joint; infinite where there is no
+  // such limit, or it was passed. `tau`: uncut; empty: efforts are not looked at.
+  std::size_t measures() const { return 4 * watched_.size(); }
+  double distance(std::size_t measure, ConstVec q, ConstVec qd, ConstVec tau) const;
+
   bool are_none() const { return watched_.empty(); }
   bool have_effort() const;
   const std::vector<LimitEvent>& events() const { return events_; }

@@ -18,6 +18,7 @@ namespace chainreel {
 struct PushEntry {
   std::string frame;           // a link or joint; "": the end effector
   std::vector<double> force;   // N, in W: x y z, or two along the axes of the plane in which the chain moves
+  std::vector<std::string> words{};  // one a number: the expression of the scene's parameters that gives it; "" of a plain one
   double from = 0;             // s
   double until = std::numeric_limits<double>::infinity();
   Place place;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "sim/watch/first_instant.hpp"
@@ -29,6 +30,20 @@ std::optional<Look> below_in_dip(double from, double to, double limit, int most_
     if (!(a < c && c < d && d < b)) return {};
   }
   return {};
+}
+
+// Between two looks at which `at`, a distance, is not below the limit: where it is, if it is. `change`: by how much it changed from look to look, here or
+// before; what is farther from zero than some of that is not looked at closer. Slopes are taken just inside of both looks.
+template <class At>
+std::optional<Look> visit_between(Look from, Look to, double change, double limit, At&& at) {
+  constexpr double kReach = 4;          // changes
+  constexpr double kInside = 1e-3;      // of the part
+  constexpr int kMostLooksAtVisit = 48;  // each narrows the part to 0.62 of itself
+  if (!(std::min(from.value, to.value) <= kReach * change)) return {};
+  // Nearer at first, farther at last.
+  const double inside = kInside * (to.t - from.t);
+  if (!(at(from.t + inside) < from.value) || !(at(to.t - inside) < to.value)) return {};
+  return below_in_dip(from.t, to.t, limit, kMostLooksAtVisit, at);
 }
 
 }  // namespace chainreel

@@ -158,9 +158,6 @@ namespace {
 
 constexpr int kMostLooks = kLeastWatchedSteps * kLooksPerStep;  // at a step
 constexpr std::size_t kUsualHits = 64;  // room for as many is made before the run
-constexpr double kReach = 4;            // of the changes from look to look: what is farther from zero is not looked at closer
-constexpr double kInside = 1e-3;        // of a part, where its slopes are taken
-constexpr int kMostLooksAtVisit = 48;   // each narrows the part to 0.62 of itself
 constexpr int kHastyTurns = 3;
 constexpr double kStray = 0.3;          // of all that was seen of a value: a quarter is the most that a smooth one strays by where it turns round
 constexpr double kNoRange = 1e-12;
@@ -296,14 +293,10 @@ void EventWatch::look_for_a_visit(Integrator& integrator, std::size_t i, double 
   const auto distance = [&](double value) { return from_below ? -value : value; };  // from zero, not below it until it happens
   const double at_a = distance(before.value), at_b = distance(now_[i]);
   const double change = std::max(std::fabs(at_b - at_a), std::fabs(before.change));
-  if (!(std::min(at_a, at_b) <= kReach * change)) return;
-  // Nearer at first, farther at last.
-  const double inside = kInside * (b - a);
   const auto at = [&](double t) { return distance(value_at(integrator, event, t)); };
-  if (!(at(a + inside) < at_a) || !(at(b - inside) < at_b)) return;
   // What holds at zero already happens there.
   const double limit = event.test == Event::Test::at_or_above || event.test == Event::Test::at_or_below ? std::numeric_limits<double>::min() : 0;
-  const std::optional<Look> there = below_in_dip(a, b, limit, kMostLooksAtVisit, at);
+  const std::optional<Look> there = visit_between({a, at_a}, {b, at_b}, change, limit, at);
   if (!there) return;
   const double nearest = there->t, value = from_below ? -there->value : there->value;
   const auto read = [&](double t) { return value_at(integrator, event, t); };

@@ -39,12 +39,12 @@ double off_by(const std::vector<double>& table, const std::vector<double>& exact
   return largest;
 }
 
-struct Judged {
+struct JudgedRun {
   double rates, torques;  // shares of ranges
 };
 
 // To rk4 at 0.1 ms, which neither the choice nor its references use; its own error is below 1e-8 of these ranges.
-Judged judge(Simulation& simulation, const MethodSetting& setting, const std::vector<double>& times) {
+JudgedRun judge(Simulation& simulation, const MethodSetting& setting, const std::vector<double>& times) {
   apply({&find_method("rk4"), {}, 1e-4}, simulation);
   const Trajectory exact = simulate(simulation, times);
   const std::vector<double> torques = torques_along(simulation, exact);
@@ -62,7 +62,7 @@ TEST(CurveDeviation, RatesAndTorquesOfAChoiceAreRightToAThousandthOfTheirRange) 
   EXPECT_DOUBLE_EQ(choice.curve_allowed, 1e-3);
   ASSERT_TRUE(choice.best.curve_error);
   EXPECT_LE(*choice.best.curve_error, 1e-3);
-  const Judged judged = judge(simulation, choice.best.setting, times);
+  const JudgedRun judged = judge(simulation, choice.best.setting, times);
   EXPECT_LE(std::max(judged.rates, judged.torques), *choice.best.curve_error * 1.001);
 
   // Negative control: the cheapest that keeps the points alone is cheaper, and misses curves by what it says.
@@ -72,7 +72,7 @@ TEST(CurveDeviation, RatesAndTorquesOfAChoiceAreRightToAThousandthOfTheirRange) 
   ASSERT_TRUE(points_alone);
   EXPECT_LT(points_alone->cost, choice.best.cost);
   EXPECT_GT(*points_alone->curve_error, 1e-3);
-  const Judged worse = judge(simulation, points_alone->setting, times);
+  const JudgedRun worse = judge(simulation, points_alone->setting, times);
   EXPECT_GT(std::max(worse.rates, worse.torques), 1e-3);
 }
 

@@ -15,11 +15,9 @@ namespace {
 
 constexpr double kSpring = 50, kDamper = 8;
 
-// The second slider of PP on a spring with a damper: q2 = e^(-d t) (q0 cos w t + ((v0 + d q0) / w) sin w t), d = c / 2 m and w^2 = k / m - d^2.
+// The second slider of PP, borne, on a spring with a damper: q2 = e^(-d t) (q0 cos w t + ((v0 + d q0) / w) sin w t), d = c / 2 m and w^2 = k / m - d^2.
 Simulation damped_slider(double duration) {
-  Simulation run = run_of("pp", {"0", "-50 * q2 - 8 * qd2"}, duration);
-  run.chain.gravity.setZero();
-  if (run.chain.planar) run.chain.planar->gravity = {};
+  Simulation run = run_of("pp", {"0", "-50 * q2 - 8 * qd2 + 9.81"}, duration);  // of 1 kg
   run.q0 = {0, 0.5};
   return run;
 }
