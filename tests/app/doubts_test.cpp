@@ -131,14 +131,14 @@ TEST(Doubts, ThatALimitIsPassedIsAnErrorWhereTheSceneExpectsNone) {
   for (const char* limit : {"report", "clamp", "stop"}) {
     const ProgramResult passed = run("21", {"--set", std::string("limit=") + limit});
     EXPECT_EQ(passed.status, 7) << limit;
-    EXPECT_THAT(passed.err, HasSubstr("joint 'joint1' passed its effort limit 20 with 21 at t = 0 s, and `expect: within_limits` stands there")) << limit;
+    EXPECT_THAT(passed.err, HasSubstr("joint 'joint1' passed its effort limit 20 with 21 at t = 0 s: `expect: within_limits` stands there")) << limit;
   }
   EXPECT_EQ(run("21", {"--set", "expect=finish"}).status, 0) << "negative control";
   EXPECT_EQ(run_program({"render", scene, "--set", "torque.1=21", "-o", folder.file("a.mp4")}).status, 7);
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.mp4")));
   EXPECT_EQ(run_program({"snapshot", scene, "--set", "torque.1=21", "--at", "0.05", "-o", folder.file("a.png")}).status, 7) << "passed before";
   EXPECT_EQ(run_program({"snapshot", scene, "--set", "torque.1=21 * (t > 0.08)", "--at", "0.05", "-o", folder.file("b.png"), "--quiet"}).status, 0) << "passed behind it";
-  ASSERT_EQ(run_program({"sweep", scene, "--over", "torque.1=19,21", "-o", folder.file("s.csv"), "--quiet"}).status, 5);
+  ASSERT_EQ(run_program({"sweep", scene, "--over", "torque.1=19,21", "-o", folder.file("s.csv"), "--quiet"}).status, 7);
   EXPECT_THAT(read_whole_file(folder.file("s.csv")), AllOf(HasSubstr("\n0,19,1,"), HasSubstr("\n1,21,0,")));
   EXPECT_THAT(run_program({"check", scene, "--set", "model={links: [0.5, 0.4], masses: [2, 1]}"}).err, HasSubstr("expect: within_limits is always fulfilled"));
 }
@@ -281,6 +281,49 @@ TEST(Doubts, AreNoneOfAChainWithoutFreedom) {
     EXPECT_EQ(run_program(with(command, {"--quiet"})).status, 0) << command[0];
 }
 
+// The rate of 1 / (t - 0.05) has no value behind 0.05 s, whatever steps go over it.
+TEST(Doubts, OfWorkThatIsNoNumberAreTold) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("p.yaml", "model: {links: [0.5], masses: [2]}\ntorque: ['1/(t-0.05)']\nduration: 0.1\nmethod: gauss4\nstep: 1ms\nvideo: {width: 320, height: 180}\n");
+  EXPECT_THAT(run_program({"simulate", scene, "-o", folder.file("t.csv"), "--quiet"}).err, HasSubstr("the work of the torques is no number from t = 0.05 s on"));
+  EXPECT_THAT(run_program({"simulate", scene, "--set", "duration=0.04", "-o", folder.file("u.csv"), "--quiet"}).err, Not(HasSubstr("no number"))) << "negative control";
+  EXPECT_THAT(run_program({"energy", scene, "--methods", "gauss4", "-o", folder.file("e.csv")}).out, AllOf(HasSubstr("inf"), HasSubstr("work is no number")));
+  const ProgramResult chart = run_program({"chart", scene, "--methods", "rk4", "--runs", "1", "-o", folder.file("c.csv")});
+  EXPECT_EQ(chart.status, 5) << "and ends";
+  EXPECT_THAT(chart.err, HasSubstr("no reference"));
+}
+
+// Where `auto` promises nothing any more, a quiet program says so, too.
+TEST(Doubts, OfWhatAutoPromisesAreTold) {
+  const TemporaryFolder folder;
+  const ProgramResult told = run_program({"simulate", "rrr_torque", "--set", "acknowledge=[]", "-o", folder.file("t.csv"), "--quiet"});
+  EXPECT_EQ(told.status, 0);
+  EXPECT_THAT(told.err, AllOf(HasSubstr("WARNING: rrr_torque: method: auto promises"), HasSubstr("take --set duration=")));
+  EXPECT_EQ(run_program({"simulate", "rrr_torque", "-o", folder.file("u.csv"), "--quiet"}).err, "") << "acknowledged";
+  EXPECT_EQ(run_program({"simulate", "rrr_free", "-o", folder.file("v.csv"), "--quiet"}).err, "") << "negative control";
+}
+
+// Words of a URDF that are not read but were likely meant are told by every command that reads it.
+TEST(Doubts, OfSlipsInAModelAreToldByEveryCommand) {
+  const TemporaryFolder folder;
+  const auto model = [](const std::string& dynamics, const std::string& origin = "") {
+    return "<robot name=\"a\"><link name=\"base\"/><link name=\"b\"><inertial>" + origin + "<origin xyz=\"0.3 0 0\"/><mass value=\"1\"/><inertia ixx=\"0.1\" ixy=\"0\" ixz=\"0\" iyy=\"0.1\" iyz=\"0\" izz=\"0.1\"/></inertial></link>\n"
+           "<joint name=\"j\" type=\"continuous\"><parent link=\"base\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/><dynamics " + dynamics + "/></joint></robot>\n";
+  };
+  folder.write("a.urdf", model("dampping=\"100\""));
+  folder.write("good.urdf", model("damping=\"100\""));
+  folder.write("two.urdf", model("damping=\"1\"", "<origin xyz=\"0 0 0\"/>"));
+  const std::string scene = folder.write("s.yaml", "model: a.urdf\nduration: 0.1\nmethod: rk4\nvideo: {width: 320, height: 180}\n");
+  for (const Words& command : std::vector<Words>{{"simulate", scene, "-o", folder.file("t.csv")}, {"render", scene, "-o", folder.file("t.mp4")}, {"dynamics", folder.file("a.urdf")},
+                                                 {"snapshot", folder.file("a.urdf"), "-o", folder.file("s.png")}, {"ellipse", folder.file("a.urdf"), "--pose", "0.1", "-o", folder.file("e.svg")},
+                                                 {"equations", folder.file("a.urdf"), "-o", folder.file("e.tex")}})
+    EXPECT_THAT(run_program(with(command, {})).err, HasSubstr("a.urdf:2: joint 'j': the attribute 'dampping' of <dynamics> is not read: did you mean 'damping'?")) << command[0];
+  EXPECT_EQ(run_program({"simulate", scene, "--set", "model=good.urdf", "-o", folder.file("u.csv"), "--quiet"}).err, "") << "negative control";
+  const ProgramResult two = run_program({"dynamics", folder.file("two.urdf")});
+  EXPECT_EQ(two.status, 3);
+  EXPECT_THAT(two.err, HasSubstr("two.urdf:1: link 'b' has more than one <origin>: keep one"));
+}
+
 // Where links of a loop come to lie on one line, no method knows the way on, and each said another one without a word.
 TEST(Doubts, OfAChangePointAreToldByEveryMethod) {
   const TemporaryFolder folder;
@@ -294,7 +337,7 @@ TEST(Doubts, OfAChangePointAreToldByEveryMethod) {
     const std::string before = run_program({"simulate", scene, "--set", method, "--set", "duration=0.54", "-o", folder.file("t.csv"), "--force", "--quiet"}).err;
     EXPECT_EQ(before, "") << method << ": the remedy as it stands";
   }
-  EXPECT_EQ(run_program({"simulate", scene, "--set", "acknowledge=[rank, energy, samples, step]", "-o", folder.file("t.csv"), "--force", "--quiet"}).err, "");
+  EXPECT_EQ(run_program({"simulate", scene, "--set", "acknowledge=[rank, energy, samples, step, accuracy]", "-o", folder.file("t.csv"), "--force", "--quiet"}).err, "");
 }
 
 }  // namespace

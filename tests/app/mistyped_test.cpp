@@ -155,5 +155,18 @@ TEST(Remedies, CanBeTypedAsTheyStand) {
     EXPECT_EQ(run_program(words).status, 0) << words[0];
 }
 
+// What a variable of the shell leaves that is not set.
+TEST(EmptyWords, AreRefusedWithTheOption) {
+  const TemporaryFolder folder;
+  for (const Words& command : std::vector<Words>{{"dynamics", "models/rr.urdf", "--q", ""}, {"dynamics", "models/rr.urdf", "--gravity", ""}, {"render", "rr_free", "--frames", "", "-o", folder.file("a.mp4")},
+                                                 {"render", "rr_free", "--shard", "", "-o", folder.file("a.mp4")}, {"simulate", "rr_free", "--every", "", "-o", folder.file("a.csv")},
+                                                 {"fall", "humanoid_fall", "--sweep", ""}, {"snapshot", "models/rr.urdf", "--pose", "", "-o", folder.file("a.png")}}) {
+    const ProgramResult result = run_program(command);
+    EXPECT_EQ(result.status, 2) << command[2];
+    EXPECT_THAT(result.err, testing::HasSubstr(command[2] + ": is empty")) << command[2];
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.mp4")));
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -373,7 +373,7 @@ TEST(OwnSlowMotionOfScenes, IsWhereLinksTurnTooFastAndNowhereElse) {
     for (const std::string& option : options) command.insert(command.end(), {"--set", option});
     return Json::parse(run_program(command).out);
   };
-  for (const char* calm : {"rr_free", "rr_torque", "big_steps", "pen", "euler_gains_energy"}) {
+  for (const char* calm : {"rr_free", "rr_torque", "pp_free", "pen", "euler_gains_energy"}) {
     const Json json = checked(calm);
     EXPECT_EQ(json.at("slow_motion"), Json::array()) << calm;
   }

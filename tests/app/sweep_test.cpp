@@ -63,9 +63,9 @@ TEST(SweepTable, HasTheFirstAndTheLastOfEachEventAndHowOften) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.err, testing::HasSubstr("in 2 of 3 rows an event happens more than once"));
   const std::vector<std::string> lines = lines_of(folder.file("e.csv"));
-  EXPECT_THAT(lines[3], testing::HasSubstr(",left [s],last_left [s],times_left,far [s],last_far [s],times_far,trouble"));
+  EXPECT_THAT(lines[3], testing::HasSubstr(",\"left [s]\",\"last_left [s]\",\"times_left\",\"far [s]\",\"last_far [s]\",\"times_far\",trouble"));
   const std::vector<std::string> names = fields_of(lines[3]);
-  const auto at = std::size_t(std::ranges::find(names, "left [s]") - names.begin());
+  const auto at = std::size_t(std::ranges::find(names, "\"left [s]\"") - names.begin());
   const double pi = 3.14159265358979312;
   for (const auto& [row, w] : {std::pair{0, 1.0}, {1, 2.0}, {2, 0.1}}) {
     const std::vector<std::string> cells = fields_of(lines[std::size_t(4 + row)]);

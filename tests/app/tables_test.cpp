@@ -268,7 +268,7 @@ TEST(SimulateColumns, ThatARunDoesNotHaveAreRefused) {
   refused("assets/scenes/rr_free.yaml", "t,lambda", "no constraints");
   refused("assets/scenes/rr_free.yaml", "t,taus", "did you mean 'tau'");
   refused("assets/scenes/rr_free.yaml", "t,q,t", "names t twice");
-  refused("assets/scenes/rr_free.yaml", "", "takes names between commas");
+  refused("assets/scenes/rr_free.yaml", "", "is empty");
   refused("assets/scenes/rr_free.yaml", "t,,q", "must be");
   const TemporaryFolder folder;
   refused(two_arms(folder), "t,x_G", "end_effector=NAME");

@@ -86,7 +86,8 @@ TEST(TablesOfToday, BesideFiguresAreAskedAndMadeAgain) {
   ASSERT_EQ(run({"energy", "f.yaml", "--methods", "rk4", "-o", "out/k.csv", "--quiet"}).status, 0);
   EXPECT_TRUE(fs::exists(folder.file("out/k.csv.json")));
   ASSERT_EQ(run({"energy", "f.yaml", "--methods", "verlet", "-o", "out/k.png", "--quiet", "--force"}).status, 0);
-  EXPECT_FALSE(fs::exists(folder.file("out/k.csv.json")));
+  EXPECT_THAT(read_whole_file(folder.file("out/k.csv.json")), testing::AllOf(HasSubstr("\"verlet\""), Not(HasSubstr("\"rk4\"")))) << "of the picture's, beside which it lies";
+  EXPECT_THAT(run({"check", "out/k.csv", "--today"}).out, HasSubstr("out/k.csv is what"));
 }
 
 // A still has no audit beside it: it tells of its own pixels.

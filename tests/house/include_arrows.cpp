@@ -155,7 +155,11 @@ const House& house() {
                         {"verify", {"report"}},
                         {"works", {"report"}},
                         {"library", {"works"}},
-                        {"commands", {"report", "works", "guide", "gallery", "verify"}},
+                        {"paper", {"film"}},
+                        {"sweep", {"works"}},
+                        {"compare", {"verify"}},
+                        {"today", {"paper", "compare", "works"}},
+                        {"commands", {"works", "guide", "gallery", "sweep", "today"}},
                         {"", {"commands"}}};
     // Eigen is the language of everything below scene.
     for (const auto& [folder, below] : h.uses)

@@ -23,7 +23,6 @@
 #include "draw/charts/response_chart.hpp"
 #include "draw/page/house_style.hpp"
 #include "scene/run/fall.hpp"
-#include "scene/run/title.hpp"
 #include "scene/text/read_scene.hpp"
 #include "table/data_table.hpp"
 
@@ -240,8 +239,8 @@ std::string csv_of(const FallOptions& options, const FallTable& table) {
 // When runs fall and feet tip, against the key; where how they end changes.
 ResponseChart chart_of(const FallTable& table, const Scene& scene) {
   ResponseChart chart;
-  chart.title = title_over_runs(scene);
-  chart.subtitle = std::to_string(table.rows.size()) + " runs of " + format_quantity(table.duration, "s") + ", " + table.method;
+  chart.title = "When does it fall?";
+  chart.subtitle = scene.name + ", " + std::to_string(table.rows.size()) + " runs of " + format_quantity(table.duration, "s") + ", " + table.method;
   chart.x = curve_axis_of(table.sweep);
   chart.y_title = "instant [s]";
   chart.from_zero = true;

@@ -22,7 +22,8 @@ bool read_force(Fields& fields, PushEntry& entry) {
     entry.force.push_back(0);
     try {
       entry.force.back() = parse_quantity(text, fields.place_of(node[i], "force." + std::to_string(i + 1)), "N");
-    } catch (const Error&) {
+    } catch (const Error& error) {
+      if (has_unit(text)) return fields.problem_at("force", "'" + fields.path("force") + "': " + error.problems().front().message), false;
       entry.words.back() = text;
     }
   }

@@ -166,7 +166,8 @@ class Derivatives {
       double difference = 0, size = 0, worst = 0;
       std::size_t at = 0;
       for (std::size_t k = 0; k < t->size(); ++k) {
-        const double rate = spline.at((*t)[k]).yd, off = std::fabs(told[i][k] - rate);
+        const auto there = spline.at((*t)[k]);
+        const double rate = upper - lower == 1 ? there.yd : there.ydd, off = std::fabs(told[i][k] - rate);
         rates.push_back(rate);
         difference += off * off;
         size += std::max(told[i][k] * told[i][k], rate * rate);
@@ -177,7 +178,7 @@ class Derivatives {
       const bool is_other = std::sqrt(difference / count) > std::max(kStill, kDoubtfulRate * std::sqrt(size / count));
       if (!is_other && !(std::fabs(factor - 1) > kDoubtfulFactor)) continue;
       const auto name = [&](std::size_t group) { return "'" + table_.names[motion_.columns[group][i]] + "'"; };
-      remarks.push_back(name(upper) + " is " + (is_other ? "not" : format_significant(factor, 3) + " times") + " the rate of " +
+      remarks.push_back(name(upper) + " is " + (is_other ? "not" : format_significant(factor, 3) + " times") + (upper - lower == 1 ? " the rate of " : " the second derivative of ") +
                         name(lower) + " in " + table_.file + ": they differ by " + format_significant(worst, 3) + " at t = " + format_significant((*t)[at], 4) + " s (" + in_row(table_, at) +
                         "); is a unit missing in the header, like [deg/s], or are rows too far apart? The torques follow " +
                         (upper == 2 ? name(upper) : name(upper) + " and its derivative"));
@@ -297,13 +298,16 @@ RecordedMotion::RecordedMotion(const Chain& chain, std::shared_ptr<const Table> 
   doubt_noise(*table_, motion, doubts_);
   const Derivatives derivatives(*table_, motion);
   derivatives.compare(0, 1, remarks_);
-  derivatives.compare(1, 2, remarks_);
+  derivatives.compare(has_rates_ ? 1 : 0, 2, remarks_);
   remark_gap(*table_, motion.t, remarks_);
   if (!motion.groups[3].empty()) {
     recorded_torques_ = motion.groups[3];
     own_torques_ = own_torques_beside(inverse_torques(chain, *splines_, motion.t));
   }
   if (!has_accelerations_ && rows() >= kFewestForCoarse) doubt_splines(chain, motion);
+  if (!has_accelerations_ && rows() < kFewestForCoarse)
+    remarks_.push_back("torques follow derivatives of splines, and " + std::to_string(rows()) + " rows of " + file + " are too few to tell how well these are known: a table with " +
+                       (has_rates_ ? "qdd" : "more rows, or with qd and qdd,") + " knows better");
   remark_unused(*table_, motion, names, remarks_);
 }
 

@@ -229,6 +229,18 @@ TEST_F(PanelFilm, ARunThatLeavesThePictureStandsStillAndSaysWhen) {
   EXPECT_NE(later[0].center.y, last_inside[0].center.y);
 }
 
+// An arrow at the edge points to where it is meanwhile, and its rails are those of the same machine beside it.
+TEST_F(PanelFilm, ARunThatLeftThePictureHasAnArrowTowardsIt) {
+  add("first", sliding);
+  add("wild", growing, true);
+  const Film two = film();
+  const auto heads = [&](const Picture& picture) {
+    return test::all_of<Polygon>(picture, [&](const Polygon& one) { return one.paint.fill == light_theme().side_b; }).size();
+  };
+  const int last = kFrames - 1;
+  EXPECT_GT(heads(two.frame(last)), heads(two.frame(0)));
+}
+
 TEST_F(PanelFilm, ARunThatEndsInsideThePictureIsDatedByItsEnd) {
   add("calm", sliding);
   add("wild", sliding, true, 40);

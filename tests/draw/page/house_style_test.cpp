@@ -29,6 +29,19 @@ TEST(HouseStyle, ChangesTheThemeItIsOfAndNoOther) {
   EXPECT_EQ(&page_theme(scene), &dark_theme());
 }
 
+// Three variants and more have the style's own colours as far as these go: curves, then sides.
+TEST(HouseStyle, ColoursComparisonsOfThreeAndMore) {
+  Scene page;
+  page.style.light = {{"curves", {0xAA0000, 0x008800}}, {"side_a", {0x0000CC}}, {"side_b", {0x008800}}};
+  const Theme& theme = page_theme(page);
+  EXPECT_EQ(variant_color(theme, 0, 3), color_of(0xAA0000));
+  EXPECT_EQ(variant_color(theme, 1, 3), color_of(0x008800));
+  EXPECT_EQ(variant_color(theme, 2, 3), color_of(0x0000CC));
+  EXPECT_EQ(variant_color(theme, 3, 4), curve_style(3, theme).color) << "the program's own behind them";
+  EXPECT_EQ(variant_color(theme, 0, 2), color_of(0x0000CC));
+  EXPECT_EQ(variant_color(light_theme(), 0, 3), curve_style(0, light_theme()).color) << "without a style";
+}
+
 TEST(HouseStyle, EachSingleColourHasItsPlaceInTheTheme) {
   for (const Name& color : kStyleColors) {
     Scene scene;

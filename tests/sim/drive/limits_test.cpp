@@ -61,6 +61,60 @@ TEST(Limits, AreFoundWithinTheLongStepsOfAdaptiveMethodsToo) {
   }
 }
 
+// q2 = A sin t on a spring of 1 N/m with 1 kg, borne: it passes 1 at asin(1 / A), for 2 sqrt(2 (A - 1)) s, and so does its rate at acos(1 / A) behind the start, and the
+// spring's force. The top lies at pi / 2, between the ends of steps.
+Simulation swinging(double A, const std::string& method, double step) {
+  Simulation run = run_of("pp", {"0", "9.81 - q2"}, 5, method, step);
+  if (step == 0) run.options.tolerance = 1e-11;
+  run.qd0 = {0, A};
+  return run;
+}
+
+TEST(Limits, AreFoundWhereTheyArePassedBetweenLooks) {
+  for (const auto& [method, step] : {std::pair("rk4", 1e-3), std::pair("rk4", 0.05), std::pair("gauss6", 0.5), std::pair("dop853", 0.0), std::pair("radau5", 0.0)}) {
+    for (const double A : {1.0001, 1.00001}) {
+      Simulation run = swinging(A, method, step);
+      run.chain.bodies[2].joint.limit.upper = 1;
+      const Trajectory trajectory = simulate(run, instants(5, 1));
+      ASSERT_EQ(trajectory.limits.size(), 1u) << method << step << " " << A;
+      // Of long steps the method's own error moves the instant: by its part of what lies beyond.
+      EXPECT_NEAR(trajectory.limits[0].t, std::asin(1 / A), step > 0.01 ? 2e-3 : 1e-6) << method << step << " " << A;
+      run.limit = LimitPolicy::stop;
+      EXPECT_EQ(simulate(run, instants(5, 1)).status, RunStatus::stopped) << method << step;
+    }
+    Simulation within = swinging(0.9999, method, step);
+    within.chain.bodies[2].joint.limit.upper = 1;
+    within.chain.bodies[2].joint.limit.velocity = 1;
+    within.chain.bodies[2].joint.limit.lower = -1;
+    EXPECT_TRUE(simulate(within, instants(5, 1)).limits.empty()) << "negative control, " << method << step;
+  }
+}
+
+// The rate's peak at half a period, -A at pi, and an effort's: A force that peaks at 2.5 s for a hundredth of that.
+TEST(Limits, OfRatesAndEffortsAreFoundBetweenLooksToo) {
+  for (const auto& [method, step] : {std::pair("rk4", 0.05), std::pair("gauss6", 0.5), std::pair("dop853", 0.0)}) {
+    Simulation run = swinging(1, method, step);
+    run.q0 = {0, 1.0001};
+    run.qd0 = {0, 0};
+    run.chain.bodies[2].joint.limit.velocity = 1;
+    const Trajectory rates = simulate(run, instants(5, 1));
+    ASSERT_EQ(rates.limits.size(), 1u) << method << step;
+    EXPECT_EQ(rates.limits[0].quantity, "velocity");
+    EXPECT_NEAR(rates.limits[0].t, std::asin(1 / 1.0001), step > 0.01 ? 2e-3 : 1e-6) << method << step;
+  }
+  for (const auto& [method, step] : {std::pair("rk4", 0.05), std::pair("dop853", 0.0)}) {
+    Simulation run = run_of("pp", {"2.0001 * sin(3 * t)", "9.81"}, 2, method, step);
+    if (step == 0) run.options.tolerance = 1e-9;
+    run.chain.bodies[1].joint.limit.effort = 2;
+    const Trajectory efforts = simulate(run, instants(2, 1));
+    ASSERT_EQ(efforts.limits.size(), 1u) << method;
+    EXPECT_EQ(efforts.limits[0].quantity, "effort");
+    EXPECT_NEAR(efforts.limits[0].t, std::asin(2 / 2.0001) / 3, 1e-6) << method;
+    run.chain.bodies[1].joint.limit.effort = 2.0002;
+    EXPECT_TRUE(simulate(run, instants(2, 1)).limits.empty()) << "negative control, " << method;
+  }
+}
+
 TEST(Limits, ThatTheStartIsBeyondStopTheRunThere) {
   Simulation run = run_of("pp", {"10", "0"}, 1);
   run.chain.bodies[1].joint.limit.effort = 4;

@@ -175,7 +175,7 @@ TEST_F(Recorded, FirstRowIsTheStartAndItsStampMayBeLarge) {
   since->evaluate(0.100000001, q, qd, qdd);
   EXPECT_DOUBLE_EQ(q[0], 0.1);
   EXPECT_DOUBLE_EQ(q[1], 0.5);
-  EXPECT_THAT(since->remarks(), IsEmpty());
+  EXPECT_THAT(since->remarks(), ElementsAre(HasSubstr("too few")));
   EXPECT_THAT(since->told_instants(), testing::Pointwise(testing::DoubleEq(), {1700000000000000001e-9, 1700000000100000002e-9, 1700000000200000004e-9}));
   const auto seconds = motion("stamp,b,a\n1700000000.000000001,0,0\n1700000000.100000002,0,0\n", names);
   EXPECT_DOUBLE_EQ(seconds->end(), 0.100000001);
@@ -219,12 +219,30 @@ TEST_F(Recorded, WhatIsNoMotionIsRefusedWithItsPlace) {
 
 TEST_F(Recorded, WhatOneWouldNotBelieveIsRemarked) {
   const auto remarks = [&](const std::string& text) { return motion(text)->remarks(); };
+  const auto few = HasSubstr("too few to tell how well");
   EXPECT_THAT(remarks("t,q1,q2,qd1,qd2\n0,0,0,57.3,0\n1,1,0,57.3,0\n2,2,0,57.3,0\n"),
-              ElementsAre(AllOf(HasSubstr("'qd1' is not the rate of 'q1'"), HasSubstr("differ by 56.3"))));
-  EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n0.1,0.1,0\n0.2,0.2,0\n0.3,0.3,0\n2,2,0\n"), ElementsAre(HasSubstr("there is nothing between t = 0.3 and 2 s")));
-  EXPECT_THAT(remarks("t,q1,q2,tau1,tau2\n0,0,0,5,0\n1,0,0,5,0\n"), ElementsAre(HasSubstr("torques are those of inverse dynamics, not those that")));
-  EXPECT_THAT(remarks("t,q1,q2,volts\n0,0,0,5\n1,0,0,5\n"), ElementsAre(HasSubstr("no use is made of these columns")));
-  EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n1,0.1,0.1\n2,0.2,0.1\n"), IsEmpty());  // negative control
+              ElementsAre(AllOf(HasSubstr("'qd1' is not the rate of 'q1'"), HasSubstr("differ by 56.3")), few));
+  EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n0.1,0.1,0\n0.2,0.2,0\n0.3,0.3,0\n2,2,0\n"), ElementsAre(HasSubstr("there is nothing between t = 0.3 and 2 s"), few));
+  EXPECT_THAT(remarks("t,q1,q2,tau1,tau2\n0,0,0,5,0\n1,0,0,5,0\n"), ElementsAre(few, HasSubstr("torques are those of inverse dynamics, not those that")));
+  EXPECT_THAT(remarks("t,q1,q2,volts\n0,0,0,5\n1,0,0,5\n"), ElementsAre(few, HasSubstr("no use is made of these columns")));
+  EXPECT_THAT(remarks("t,q1,q2\n0,0,0\n1,0.1,0.1\n2,0.2,0.1\n"), ElementsAre(few));
+  EXPECT_THAT(remarks("t,q1,q2,qd1,qd2,qdd1,qdd2\n0,0,0,0,0,1,0\n1,0.5,0,1,0,1,0\n2,2,0,2,0,1,0\n"), IsEmpty()) << "negative control: it tells accelerations";
+}
+
+// Accelerations are held against the places where no rates stand between them: q1 = 0.6 sin(7 t) + 0.2 at 1 kHz.
+TEST_F(Recorded, AccelerationsThatAreNotThoseOfThePlacesAreRemarked) {
+  const auto remarks = [&](double factor) {
+    std::string text = "t,q1,q2,qdd1,qdd2\n";
+    for (int k = 0; k <= 1000; ++k) {
+      const double t = k / 1000.0;
+      text += format_shortest(t) + "," + format_shortest(0.6 * std::sin(7 * t) + 0.2) + ",0," + format_shortest(-factor * 0.6 * 49 * std::sin(7 * t)) + ",0\n";
+    }
+    return motion(text)->remarks();
+  };
+  EXPECT_THAT(remarks(180 / std::numbers::pi), ElementsAre(HasSubstr("'qdd1' is not the second derivative of 'q1'"))) << "degrees";
+  EXPECT_THAT(remarks(-1), ElementsAre(HasSubstr("'qdd1' is not the second derivative of 'q1'"))) << "of the other sign";
+  EXPECT_THAT(remarks(1.1), ElementsAre(HasSubstr("'qdd1' is 1.1 times the second derivative of 'q1'")));
+  EXPECT_THAT(remarks(1), IsEmpty()) << "negative control";
 }
 
 // q1 = sin(2 pi t) in `rows` rows a period, read with this much noise, and rates that are `factor` times its own.
