@@ -89,6 +89,9 @@ OutputFile::OutputFile(std::string path, bool overwrite) : path_(std::move(path)
   std::error_code code;
   if (!replace_ && fs::exists(target_, code)) is_there(path_);
   const fs::path folder = folder_of(target_);
+  // A folder that is named is made; where a link points is somebody else's.
+  if (target_ != path_ && !fs::is_directory(folder, code))
+    throw Error(ExitCode::file, "is a link to " + target_ + ", whose folder is not there: make it, or name another file", {path_});
   fs::create_directories(folder, code);
   if (!fs::is_directory(folder, code))
     throw Error(ExitCode::file, "cannot make this folder; choose another", {folder.string()});

@@ -193,8 +193,9 @@ std::vector<RankLoss> rank_losses_of(const Simulation& simulation, const Traject
   return RowStrengths(simulation, seen_at(std::move(times))).losses();
 }
 
-std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajectory& trajectory) {
-  const std::vector<RankLoss> losses = rank_losses_of(simulation, trajectory);
+std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajectory& trajectory, double until) {
+  std::vector<RankLoss> losses = rank_losses_of(simulation, trajectory);
+  std::erase_if(losses, [&](const RankLoss& one) { return one.t > until; });
   if (losses.empty()) return {};
   constexpr std::size_t kTold = 4;
   std::string when;

@@ -2,6 +2,7 @@
 // cross there, or end; which of them goes on is not said by the equations, and lambda is none of theirs.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct RankLoss {
 // The poses with a part below kDependentRows in the order of time, one each time that the run passes there.
 std::vector<RankLoss> rank_losses_of(const Simulation& simulation, const Trajectory& trajectory);
 
-// Its remedy is typed as it stands, but where the run starts there.
-std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajectory& trajectory);
+// Of poses until then, s. Its remedy is typed as it stands, but where the run starts there.
+std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajectory& trajectory, double until = std::numeric_limits<double>::infinity());
 
 }  // namespace chainreel

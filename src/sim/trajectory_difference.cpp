@@ -197,6 +197,11 @@ void join_rotations(std::vector<SampledNumber>& numbers) {
   }
 }
 
+// And nothing else that tables hold.
+static bool are_rates(const std::vector<SampledNumber>& numbers) {
+  return std::ranges::all_of(numbers, [](const SampledNumber& one) { return one.label.starts_with("qd") || one.label.starts_with("rate of "); });
+}
+
 TrajectoryDifference difference_of(const SampledTrajectory& before, const SampledTrajectory& after, double of_range) {
   TrajectoryDifference difference;
   const Instants instants = shared_instants(before.t, after.t);
@@ -215,7 +220,7 @@ TrajectoryDifference difference_of(const SampledTrajectory& before, const Sample
     };
     difference.freedoms = find(after.q_numbers, before.q, after.q);
     if (!same_rates)
-      difference.others.push_back(change_of_names("rates", before.qd_numbers, after.qd_numbers));
+      difference.others.push_back(change_of_names(are_rates(before.qd_numbers) && are_rates(after.qd_numbers) ? "rates" : "columns", before.qd_numbers, after.qd_numbers));
     const std::vector<FreedomDifference> rates =
         same_rates ? find(after.qd_numbers, before.qd, after.qd) : std::vector<FreedomDifference>{};
     difference.numbers = difference.freedoms;

@@ -337,6 +337,9 @@ TEST(Doubts, OfAChangePointAreToldByEveryMethod) {
     const std::string before = run_program({"simulate", scene, "--set", method, "--set", "duration=0.54", "-o", folder.file("t.csv"), "--force", "--quiet"}).err;
     EXPECT_EQ(before, "") << method << ": the remedy as it stands";
   }
+  EXPECT_THAT(run_program({"energy", scene, "--methods", "rk4", "-o", folder.file("e.csv"), "--quiet"}).err, HasSubstr("depend on each other"));
+  EXPECT_THAT(run_program({"dynamics", scene, "--at", "1"}).err, HasSubstr("WARNING: cp: at t = 0.55"));
+  EXPECT_THAT(run_program({"dynamics", scene, "--at", "0.5"}).err, Not(HasSubstr("depend on each other"))) << "it ends before";
   EXPECT_EQ(run_program({"simulate", scene, "--set", "acknowledge=[rank, energy, samples, step, accuracy]", "-o", folder.file("t.csv"), "--force", "--quiet"}).err, "");
 }
 

@@ -263,6 +263,7 @@ TEST(FallCommand, DrawsWhenHeFalls) {
   EXPECT_THAT(svg, testing::AllOf(HasSubstr("down"), HasSubstr("foot tips"), HasSubstr("instant [s]"), HasSubstr("from '")));
   EXPECT_THAT(read_whole_file(folder.file("f.csv")), HasSubstr("parameters.k,fall_time [s]")) << "the numbers lie beside it";
   EXPECT_EQ(run_program({"check", folder.file("f.svg"), "--today"}).status, 0);
+  EXPECT_THAT(svg, HasSubstr("When does it fall?"));
   const ProgramResult none = run_program({"fall", "humanoid_fall", "-o", folder.file("g.png")});
   EXPECT_EQ(none.status, 2);
   EXPECT_THAT(none.err, HasSubstr("--sweep"));

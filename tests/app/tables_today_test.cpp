@@ -90,6 +90,30 @@ TEST(TablesOfToday, BesideFiguresAreAskedAndMadeAgain) {
   EXPECT_THAT(run({"check", "out/k.csv", "--today"}).out, HasSubstr("out/k.csv is what"));
 }
 
+// Equations for a handout are as stale as a film.
+TEST(EquationsOfToday, HaveARecordAndAreMadeAgain) {
+  const TemporaryFolder folder;
+  const std::string own = own_model();
+  folder.write("a.urdf", own);
+  folder.write("s.yaml", "title: A\nmodel: a.urdf\nduration: 0.3\n");
+  const RunOptions there{.folder = folder.path().string()};
+  const auto run = [&](const Words& words) { return run_program(words, there); };
+  ASSERT_EQ(run({"equations", "a.urdf", "--document", "-o", "out/a.tex", "-o", "out/a.txt"}).status, 0);
+  ASSERT_EQ(run({"equations", "s.yaml", "-o", "out/s.py", "-o", "out/s.json"}).status, 0);
+  folder.write("s.yaml", "title: B\nmodel: a.urdf\nduration: 0.5\nmethod: rk4\ntorque: [1, 0]\n");
+  const ProgramResult same = run({"check", "out", "--today"});
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  for (const char* file : {"out/a.tex", "out/a.txt", "out/s.py", "out/s.json"}) EXPECT_THAT(same.out, HasSubstr(std::string(file) + " is what")) << file;
+  const std::string before = read_whole_file(folder.file("out/a.tex"));
+  folder.write("a.urdf", heavier(own));
+  EXPECT_EQ(run({"check", "out/a.tex", "--today"}).status, 1);
+  const ProgramResult told = run({"check", "out", "--today", "--commands"});
+  EXPECT_EQ(told.status, 1);
+  EXPECT_EQ(run_told(told.out, folder.path().string()).status, 0) << told.out;
+  EXPECT_NE(read_whole_file(folder.file("out/a.tex")), before);
+  EXPECT_EQ(run({"check", "out", "--today"}).status, 0);
+}
+
 // A still has no audit beside it: it tells of its own pixels.
 TEST(PicturesOfToday, WithOtherPixelsAreNotAsTheyWereWritten) {
   const TemporaryFolder folder;

@@ -15,6 +15,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/chart.hpp"
@@ -326,6 +327,8 @@ void run_chart(const ChartOptions& options) {
   const std::string doubt = options.judged() == Judged::final ? doubt_of_end(prepared.simulation) : "";
   if (!doubt.empty()) tell_warnings({prepared.scene.name + ": " + doubt});
   Measured measured = measure_all(prepared, chosen, options);
+  apply(measured.choice->best.setting, prepared.simulation);
+  warn_of_rank(prepared, prepared.simulation.duration);
   WorkPrecision data = data_of(prepared, measured, options);
   for (const std::string& name : lit)
     if (std::none_of(data.curves.begin(), data.curves.end(), [&](const ChartCurve& c) { return c.method == name; }))

@@ -220,6 +220,7 @@ Json scene_report(const DynamicsOptions& options) {
                 "--formulation lagrange knows no constraints, which `" + options.file + "` has: leave it out");
   say_choice(prepared, options.common.quiet);
   const Trajectory run = state_at(prepared, at);
+  warn_of_rank(prepared, at);
   const Instant now = instant_of(simulation, run, 0);
   State state{{run.q_at(0).begin(), run.q_at(0).end()}, {run.qd_at(0).begin(), run.qd_at(0).end()}, now.tau};
   for (std::size_t i = 0; i < now.tau_push.size(); ++i) state.tau[i] += now.tau_push[i];

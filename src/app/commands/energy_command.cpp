@@ -14,6 +14,7 @@
 #include "app/film/prepared.hpp"
 #include "app/film/progress.hpp"
 #include "app/report/report.hpp"
+#include "app/report/run_report.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/energy_chart.hpp"
@@ -312,6 +313,8 @@ void run_energy(const EnergyOptions& options) {
   FigureFiles files(options.figure, "out/" + scene.name + "_energy.png", options.common.force);
   require_all_possible(all);
   const std::vector<MethodRun> runs = run_all(all, until, options.common.quiet);
+
+  warn_of_rank(all.first(), until);
 
   const Fonts fonts(families_of(scene));
   const ChartLook look = chart_look(options.figure, scene, fonts);

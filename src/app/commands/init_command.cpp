@@ -8,6 +8,7 @@
 
 #include "app/cli/command.hpp"
 #include "app/cli/result.hpp"
+#include "app/cli/shell_word.hpp"
 #include "core/data_folder.hpp"
 #include "app/commands/dh_table.hpp"
 #include "app/commands/starter_files.hpp"
@@ -181,7 +182,7 @@ void run_init(const InitOptions& options) {
   write_whole(model, files.model);
   write_whole(scene, files.scene);
   tell_result(options.common, [&] { return files_json({scene.path(), model.path()}); }, [&] {
-    std::printf("%s\n%s\nNext: chainreel render %s\n", scene.path().c_str(), model.path().c_str(), scene.path().c_str());
+    std::printf("%s\n%s\nNext: chainreel render %s\n", scene.path().c_str(), model.path().c_str(), shell_word(scene.path()).c_str());
   });
 }
 

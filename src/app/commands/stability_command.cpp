@@ -125,7 +125,7 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   if (!map.boundaries.empty() && agreement.is_rough()) {
     for (MapBoundary& boundary : map.boundaries) boundary.is_rough = true;
     if (map.boundaries.front().label == kTheory) map.boundaries.front().label = "linearised";
-    map.footer += " " + std::to_string(agreement.otherwise) + " of " + std::to_string(agreement.known) + " cells do otherwise: the motion is far from linear.";
+    map.footer += " " + std::to_string(agreement.otherwise) + " of " + std::to_string(agreement.known) + " cells do otherwise than it, which knows neither of energies nor of motions that are far from linear.";
   }
   if (!map.boundaries.empty() && cells.about_motion > 0) map.footer += " " + std::string(kNoEquilibrium) + ".";
   if (scene.limit == LimitPolicy::clamp)

@@ -292,6 +292,7 @@ std::string alt_text(const FilmReport& report, const ClipLength& clip) {
   if (first > 0) text += "; the first is held for " + format_quantity(first, "s");
   if (last > 0) text += "; the last is held for " + format_quantity(last, "s");
   text += speed_words(report) + pause_words(report) + "\nUnits: m, kg, s, N, N m, J, rad; times are those of the motion\n" + constraint_lines(report);
+  for (const std::string& warning : warning_lines(report)) text += "Warning: " + warning + "\n";
   std::vector<Moment> moments;
   for (const RunReport& run : report.panels) add_events(moments, run, where_of(report, run));
   for (const RunReport& run : report.panels) {

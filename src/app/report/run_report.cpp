@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
 #include "app/film/house_logo.hpp"
 #include "app/report/report.hpp"
@@ -18,6 +19,7 @@
 #include "scene/run/prepare.hpp"
 #include "scene/run/title.hpp"
 #include "sim/drive/recorded_motion.hpp"
+#include "sim/rank_loss.hpp"
 #include "sim/torques_along.hpp"
 
 namespace chainreel {
@@ -164,6 +166,17 @@ Json to_json(const RunReport& report) {
 
 void tell_warnings(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) std::fprintf(stderr, "WARNING: %s\n", line.c_str());
+}
+
+void warn_of_rank(const PreparedScene& prepared, double end) {
+  constexpr int kInstants = 200;
+  const std::vector<std::string>& known = prepared.scene.acknowledge;
+  if (prepared.simulation.constraints.empty() || !(end > 0) || std::find(known.begin(), known.end(), "rank") != known.end()) return;
+  std::vector<double> times;
+  for (int k = 0; k <= kInstants; ++k) times.push_back(end * k / kInstants);
+  const Trajectory trajectory = simulate(prepared.simulation, times, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  if (const std::optional<Doubt> doubt = doubt_of_rank(prepared.simulation, trajectory, end)) tell_warnings({prepared.scene.name + ": " + doubt->words});
 }
 
 std::vector<std::string> warning_lines(const std::string& name, const RunReport& report) {

@@ -98,8 +98,11 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) con
   const Panel& panel = panels_[i];
   const int shown = std::clamp(k, 0, panel.last());
   const bool is_gone = k > shown && panel.motion().may_freeze();
-  // A page without a ground has no veil and no words to say so: what is not there any more is not shown.
-  if (is_gone && is_transparent(stage_->page)) return;
+  // A page without a ground has no veil and no words to say so: what is not there any more is not shown, but where it is.
+  if (is_gone && is_transparent(stage_->page)) {
+    if (stage_->has_cells()) draw_way_out(picture, i, k);
+    return;
+  }
   const std::vector<StandingWord> of_still = is_still ? words_.still(*stage_, layers_, sheet_, view_, panels_, i, shown) : std::vector<StandingWord>{};
   MarkLabels labels(is_still ? std::span<const StandingWord>(of_still) : words_.at(i, shown));
   for (std::size_t l = 0; l < layers_.size(); ++l)
