@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+
 #include "core/dense.hpp"
 #include "dynamics/algebra.hpp"
 #include "dynamics/equation_of_motion.hpp"
@@ -55,6 +58,31 @@ void find_directions(EffectiveMass& effective, double free) {
   }
 }
 
+namespace {
+
+// Mobilities and directions by singular values, which know small ones to as many digits as the largest has. Leaves all as it is where M has no Cholesky factor.
+void refine_directions(EffectiveMass& effective, const Eigen::MatrixXd& J, const Eigen::MatrixXd& M) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(M);
+  if (factor.info() != Eigen::Success) return;
+  const Eigen::MatrixXd W = factor.matrixL().solve(J.transpose());
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(W, Eigen::ComputeFullV);
+  const Eigen::Index rows = J.rows(), known = svd.singularValues().size();
+  const double largest = known > 0 ? svd.singularValues()(0) : 0;
+  effective.least = kSingularValue * kSingularValue * largest * largest;
+  effective.is_infinite.clear();
+  effective.singular_directions.clear();
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    const Eigen::Index from = rows - 1 - k;  // rising
+    const double sigma = from < known ? svd.singularValues()(from) : 0;
+    effective.mobility(k) = sigma * sigma;
+    effective.directions.col(k) = svd.matrixV().col(from);
+    effective.is_infinite.push_back(!(sigma > kSingularValue * largest));
+    if (effective.is_infinite.back()) effective.singular_directions.emplace_back(effective.directions.col(k));
+  }
+}
+
+}  // namespace
+
 Eigen::MatrixXd inverse_by_directions(const EffectiveMass& effective) {
   return congruence(effective.directions.transpose(), effective.mobility.cwiseInverse().asDiagonal());
 }
@@ -66,6 +94,13 @@ EffectiveMass effective_mass_of(const Chain& chain, Workspace& ws, ConstVec q, i
   result.Lambda_inv = inverse_of_effective_mass(chain, ws);
 
   find_directions(result);
+  constexpr double kSmall = 1e-6;  // of the largest: ten digits are left
+  if (result.mobility.size() > 0 && result.mobility(0) < kSmall * result.mobility.maxCoeff()) {
+    const Eigen::MatrixXd J = ws.J;
+    compute_mass_matrix(chain, ws, q);
+    refine_directions(result, J, ws.M);
+    ws.J = J;
+  }
   if (!result.singular_directions.empty()) return result;
 
   if (ws.J.rows() == ws.J.cols()) {

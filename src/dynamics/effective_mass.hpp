@@ -11,8 +11,9 @@
 
 namespace chainreel {
 
-// An eigenvalue of Lambda_inv below this fraction of the largest is what rounding leaves of none: infinite mass in that direction. A tenth of a
-// microradian beside a stretched arm the mass is finite.
+// A singular value of L^-1 J^T, M = L L^T, below this fraction of the largest is what rounding leaves of none: infinite mass in that direction. Its square
+// is the eigenvalue of Lambda_inv, in which rounding leaves kSingularFraction: singular values tell a mass a millionth of a microradian beside a stretched arm.
+inline constexpr double kSingularValue = 1e-13;
 inline constexpr double kSingularFraction = 1e-13;
 // The same of a mechanism whose constraints forbid motions, of what the chain could do without them: rounding of the rows is left there.
 inline constexpr double kForbiddenFraction = 1e-6;

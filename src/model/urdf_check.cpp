@@ -341,6 +341,9 @@ class Checker {
       joint.limit.has_upper = has("upper");
       joint.limit.has_effort = has("effort");
       joint.limit.has_velocity = has("velocity");
+      for (const char* attribute : {"effort", "velocity"})
+        if (const auto value = numbers_.one(*limit, attribute, owner, Need::optional, Range::any); value && *value < 0)
+          problems_.add(limit->GetLineNum(), owner + " has a limit of " + attribute + " below zero: limits are sizes, of either direction; leave the attribute out where there is none");
     } else if (joint.type == UrdfJointType::revolute || joint.type == UrdfJointType::prismatic) {
       limit = element.InsertNewChildElement("limit");
     } else {

@@ -319,6 +319,10 @@ TEST(Doubts, OfSlipsInAModelAreToldByEveryCommand) {
                                                  {"equations", folder.file("a.urdf"), "-o", folder.file("e.tex")}})
     EXPECT_THAT(run_program(with(command, {})).err, HasSubstr("a.urdf:2: joint 'j': the attribute 'dampping' of <dynamics> is not read: did you mean 'damping'?")) << command[0];
   EXPECT_EQ(run_program({"simulate", scene, "--set", "model=good.urdf", "-o", folder.file("u.csv"), "--quiet"}).err, "") << "negative control";
+  folder.write("limit.urdf", model("/><limit lower=\"-1\" upper=\"1\" effort=\"-10\" velocity=\"1\""));
+  const ProgramResult limit = run_program({"dynamics", folder.file("limit.urdf")});
+  EXPECT_EQ(limit.status, 3);
+  EXPECT_THAT(limit.err, HasSubstr("has a limit of effort below zero"));
   const ProgramResult two = run_program({"dynamics", folder.file("two.urdf")});
   EXPECT_EQ(two.status, 3);
   EXPECT_THAT(two.err, HasSubstr("two.urdf:1: link 'b' has more than one <origin>: keep one"));

@@ -76,6 +76,17 @@ TEST(SimulateCommand, HasThePeakOfAMultiplierThatTheAuditHas) {
 }
 
 // Forces may be no numbers behind the end: a first step that is tried out looks no farther, wherever the run begins.
+// A pulse of torque between all stages of the steps is found by its peak, and is beyond the limit all the same.
+TEST(SimulateCommand, HoldsPeaksAgainstLimits) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: {links: [0.5], masses: [1], efforts: 10}\ntorque: ['12 * exp(-((t - 0.53) / 0.003)^2)']\nduration: 2\nexpect: within_limits\nmethod: rk4\nstep: 0.1\n");
+  const ProgramResult found = run_program({"simulate", scene, "--peaks", "tau", "-o", folder.file("a.csv")});
+  EXPECT_EQ(found.status, 7);
+  EXPECT_THAT(found.err, HasSubstr("joint 'joint1' passed its effort limit 10 with 12 at t = 0.53 s"));
+  EXPECT_EQ(run_program({"sweep", scene, "--over", "duration=1,2", "--peaks", "tau", "-o", folder.file("s.csv")}).status, 7);
+  EXPECT_EQ(run_program({"simulate", scene, "--set", "torque=['9.9 * exp(-((t - 0.53) / 0.003)^2)']", "--peaks", "tau", "-o", folder.file("b.csv")}).status, 0) << "negative control";
+}
+
 // CI asks for the numbers of the run that fails, too.
 TEST(SimulateCommand, TellsItsReportOfARunThatShouldHaveEndedOtherwise) {
   const TemporaryFolder folder;

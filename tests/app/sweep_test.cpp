@@ -82,6 +82,27 @@ TEST(SweepTable, HasTheFirstAndTheLastOfEachEventAndHowOften) {
   EXPECT_EQ(run_program({"sweep", scene, "--over", "parameters.k=1:4:3", "--map", "last_left", "-o", folder.file("m.svg")}).status, 0);
 }
 
+// The whole says what its parts said, and each reason is one.
+TEST(SweepTable, JoinedTellsWhatFailed) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: {links: [0.5], masses: [1], efforts: 20}\nduration: 0.2\nmethod: rk4\ntorque: [19]\nexpect: within_limits\n");
+  for (const char* shard : {"1/2", "2/2"}) EXPECT_EQ(run_program({"sweep", scene, "--over", "torque.1=19,18,21", "--shard", shard, "-o", folder.file("p.csv")}).status, shard[0] == '1' ? 0 : 7);
+  Words join{"join", "-o", folder.file("all.csv")};
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    if (entry.path().filename().string().starts_with("p.") && entry.path().extension() == ".csv") join.push_back(entry.path().string());
+  ASSERT_EQ(join.size(), 5u);
+  const ProgramResult joined = run_program(join);
+  EXPECT_EQ(joined.status, 7);
+  EXPECT_THAT(joined.err, testing::AllOf(HasSubstr("1 of the runs failed, first at run 2: "), HasSubstr("effort limit 20")));
+  EXPECT_EQ(lines_of(folder.file("all.csv")).size(), 4u + 3 + 1);
+  const ProgramResult calm = run_program({"sweep", scene, "--over", "torque.1=1,2", "--set", "expect=diverge", "-o", folder.file("d.csv")});
+  EXPECT_EQ(calm.status, 5);
+  EXPECT_THAT(calm.err, HasSubstr("torque.1=1: was expected to diverge, but finished"));
+  const ProgramResult twins = run_program({"sweep", scene, "--over", "torque.1=1,2", "--set", "events=[{when: q1, name: zero}, {when: \"q1 < -0.9\", name: last_zero}]", "-o", folder.file("t.csv")});
+  EXPECT_EQ(twins.status, 3);
+  EXPECT_THAT(twins.err, HasSubstr("two columns of the table would be called last_zero [s]"));
+}
+
 TEST(SweepTable, RowsAreTheLastOfTheRunsByThemselves) {
   const TemporaryFolder folder;
   ASSERT_EQ(sweep(folder.file("a.csv")).status, 0);

@@ -90,6 +90,54 @@ TEST(TablesOfToday, BesideFiguresAreAskedAndMadeAgain) {
   EXPECT_THAT(run({"check", "out/k.csv", "--today"}).out, HasSubstr("out/k.csv is what"));
 }
 
+// What was edited by hand is not replaced by a command that one pipes into a shell: a table beside a figure, or the text of an SVG.
+TEST(TablesOfToday, EditedOnesBesideFiguresAndEditedDrawingsAreKept) {
+  const TemporaryFolder folder;
+  const std::string body = "model: {links: [0.5, 0.5], masses: [1, 1]}\nduration: 0.3\nmethod: rk4\nstep: 10ms\nparameters: {k: 4}\ntorque: [-k * q1, 0]\nstart: {q: [1, 0]}\n";
+  folder.write("o.yaml", body);
+  const RunOptions there{.folder = folder.path().string()};
+  const auto run = [&](const Words& words) { return run_program(words, there); };
+  ASSERT_EQ(run({"energy", "o.yaml", "--methods", "rk4,dop853", "-o", "out/en.png", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"energy", "o.yaml", "--methods", "rk4", "-o", "out/dr.svg", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"stability", "o.yaml", "--methods", "rk4", "--x", "step=0.02:0.4:3", "--y", "parameters.k=25:400:3", "-o", "out/st.png", "--quiet"}).status, 0);
+  EXPECT_EQ(run({"check", "out", "--today"}).status, 0);
+  const std::string table = read_whole_file(folder.file("out/en.csv")) + "9,9,9,my own note\n";
+  std::string drawing = read_whole_file(folder.file("out/dr.svg"));
+  drawing.insert(drawing.rfind("</svg>"), "<text>my label</text>");
+  folder.write("out/en.csv", table);
+  folder.write("out/dr.svg", drawing);
+  EXPECT_THAT(run({"check", "out/dr.svg", "--today"}).out, HasSubstr("the file is not as it was written"));
+  std::string other = body;
+  other.replace(other.find("k: 4"), 4, "k: 5");
+  folder.write("o.yaml", other);
+  const ProgramResult told = run({"check", "out", "--today", "--commands"});
+  EXPECT_THAT(told.out, Not(HasSubstr("st.png"))) << "k is what its map goes over";
+  run_told(told.out, folder.path().string());
+  EXPECT_EQ(read_whole_file(folder.file("out/en.csv")), table) << told.out;
+  EXPECT_EQ(read_whole_file(folder.file("out/dr.svg")), drawing) << told.out;
+}
+
+// Another course's scene of the same name makes nobody's still: that of a folder beside the pictures' does.
+TEST(PicturesOfToday, AreNotMadeAgainOfAScenesNameInAnotherCourse) {
+  const TemporaryFolder folder;
+  const std::string body = "model: {links: [0.5, 0.5], masses: [1, 1]}\nduration: 0.3\nmethod: rk4\nvideo: {width: 320, height: 180}\n";
+  for (const char* name : {"a", "b", "c/scenes"}) fs::create_directories(folder.path() / name);
+  folder.write("a/s.yaml", body);
+  folder.write("c/scenes/u.yaml", body);
+  const RunOptions there{.folder = folder.path().string()};
+  const auto run = [&](const Words& words) { return run_program(words, there); };
+  ASSERT_EQ(run({"snapshot", "a/s.yaml", "--at", "0.2", "-o", "a/out/still.png", "--quiet"}).status, 0);
+  ASSERT_EQ(run({"snapshot", "c/scenes/u.yaml", "--at", "0.2", "-o", "c/out/still.png", "--quiet"}).status, 0);
+  fs::remove(folder.file("a/s.yaml"));
+  folder.write("b/s.yaml", body + "title: Course B\n");
+  folder.write("c/scenes/u.yaml", body + "title: Of today\n");
+  const ProgramResult told = run({"check", "a/out", "--today"});
+  EXPECT_EQ(told.status, 1);
+  EXPECT_THAT(told.out, HasSubstr("its scene was found in another folder, by the name alone"));
+  EXPECT_THAT(run({"check", "a/out", "--today", "--commands"}).out, testing::StartsWith("# its scene was found in another folder"));
+  EXPECT_THAT(run({"check", "c/out", "--today", "--commands"}).out, testing::StartsWith("chainreel snapshot")) << "negative control";
+}
+
 // Equations for a handout are as stale as a film.
 TEST(EquationsOfToday, HaveARecordAndAreMadeAgain) {
   const TemporaryFolder folder;

@@ -90,20 +90,28 @@ TEST(EffectiveMassTest, GrowsWithTheInverseSquareOfTheDistanceToASingularPose) {
   EXPECT_NEAR(largest(0.005) / largest(0.01), 4, 0.01);
 }
 
-// The fraction is about the square of the angle in rad. Lambda's larger eigenvalue is 1 / mobility ~ c / eps^2, with the same c for all small eps.
+// Lambda's larger eigenvalue is c / eps^2, with the same c for all small eps, of a square J and of one with more columns than rows.
 TEST(EffectiveMassTest, IsSingularBelowTheStatedFraction) {
-  const auto scaled = [](double eps) {
-    const std::optional<Eigen::MatrixXd> Lambda = rr_effective_mass(rr_chain(), eps / kDegree).Lambda;
-    return Lambda ? Lambda->norm() * eps * eps : -1;
+  const auto rr = [](double eps) { return rr_effective_mass(rr_chain(), eps / kDegree); };
+  const auto rrr = [](double eps) {
+    static const Chain chain = rrr_chain();
+    Workspace ws(chain);
+    return effective_mass_of(chain, ws, std::vector<double>{0.3, eps, 0}, chain.end_effector, Task::linear);
   };
-  const double c = scaled(1e-3);
-  EXPECT_GT(c, 0);
-  // Square J: nothing is lost to its condition but rounding / eps, and O(eps) of the law itself.
-  for (const double eps : {1e-4, 1e-5, 1e-6}) EXPECT_NEAR(scaled(eps) / c, 1, 1e-2) << eps;
-  EXPECT_EQ(scaled(1e-8), -1);
-  const EffectiveMass near = rr_effective_mass(rr_chain(), 1e-8 / kDegree);
-  ASSERT_EQ(near.singular_directions.size(), 1u);
-  EXPECT_GT(near.singular_directions[0](0), 0.99999);
+  const auto scaled = [](const EffectiveMass& mass, double eps) { return mass.Lambda ? mass.Lambda->norm() * eps * eps : -1; };
+  // What J knows of a pose is rounded to 2e-16 of lengths: some 1e-15 / eps, twice, and O(eps) of the law.
+  const double of_rr = scaled(rr(1e-4), 1e-4), of_rrr = scaled(rrr(1e-4), 1e-4);
+  EXPECT_GT(of_rr, 0);
+  EXPECT_GT(of_rrr, 0);
+  for (const double eps : {1e-5, 1e-6, 1e-8, 1e-10}) {
+    EXPECT_NEAR(scaled(rr(eps), eps) / of_rr, 1, 1e-3 + 1e-14 / eps) << eps;
+    EXPECT_NEAR(scaled(rrr(eps), eps) / of_rrr, 1, 1e-3 + 1e-14 / eps) << eps;
+  }
+  for (const EffectiveMass& mass : {rr(1e-14), rr(0), rrr(1e-14), rrr(0)}) {
+    EXPECT_FALSE(mass.Lambda);
+    ASSERT_EQ(mass.singular_directions.size(), 1u);
+  }
+  EXPECT_GT(std::abs(rr(1e-14).singular_directions[0](0)), 0.99999);
 }
 
 TEST(EffectiveMassTest, IsJMinvJtOfEveryChain) {

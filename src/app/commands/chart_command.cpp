@@ -316,6 +316,17 @@ std::string doubt_of_end(Simulation& simulation) {
          "or a shorter duration";
 }
 
+// A run that a limit ends has no error at an end that it does not come to.
+void require_whole_run(const PreparedScene& prepared) {
+  if (prepared.scene.limit != LimitPolicy::stop) return;
+  const double end[] = {prepared.simulation.duration};
+  const Trajectory run = simulate(prepared.simulation, end, [](double) { return interrupted(); });
+  throw_if_interrupted();
+  if (run.status != RunStatus::stopped) return;
+  throw Error(ExitCode::numerical, "the run stops: " + run.trouble + ", and a chart compares runs until their end: take --set duration=" +
+                                       format_significant(run.end_time * 0.99, 2) + ", or --set limit=report", prepared.scene.place_of("limit"));
+}
+
 void run_chart(const ChartOptions& options) {
   check_figure_size(options.figure);
   errors_to_reach(options.reach);  // before anything is measured
@@ -328,6 +339,7 @@ void run_chart(const ChartOptions& options) {
   if (!doubt.empty()) tell_warnings({prepared.scene.name + ": " + doubt});
   Measured measured = measure_all(prepared, chosen, options);
   apply(measured.choice->best.setting, prepared.simulation);
+  require_whole_run(prepared);
   warn_of_rank(prepared, prepared.simulation.duration);
   WorkPrecision data = data_of(prepared, measured, options);
   for (const std::string& name : lit)

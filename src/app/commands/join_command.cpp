@@ -178,10 +178,15 @@ Json joined_json(const JoinOptions& options, Json frames) {
 
 void run_join(const JoinOptions& options) {
   if (lower_case_ending(options.output) == ".csv") {
-    join_tables(options.parts, options.output, options.common.force);
-    tell_result(options.common, [&] { return joined_json(options, nullptr); },
+    const SweepOutcome outcome = join_tables(options.parts, options.output, options.common.force);
+    tell_result(options.common,
+                [&] {
+                  Json json = joined_json(options, nullptr);
+                  json["failed"] = outcome.failed;
+                  return json;
+                },
                 [&] { std::printf("%s: the table of %zu parts\n", options.output.c_str(), options.parts.size()); });
-    return;
+    return require_none_failed(outcome, options.output);
   }
   if (lower_case_ending(options.parts.front()) == ".csv")
     throw Error(ExitCode::usage, "-o " + options.output + ": its parts are .csv tables, which are joined as one: name a .csv");

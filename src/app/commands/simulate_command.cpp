@@ -76,18 +76,21 @@ struct Wanted {
   PeaksAsked peaks;
 };
 
-std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const PeaksAsked& peaks) {
-  if (peaks.empty()) return {};
+// What the run did not see itself is added to the limits that it passes.
+std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const PeaksAsked& peaks, Trajectory& trajectory) {
+  if (peaks.empty() || !is_complete(trajectory.status)) return {};  // what a run grows to that is lost is no peak
   const PeaksOfRun found = simulate_for_peaks(simulation, peaks, [](double) { return interrupted(); });
   throw_if_interrupted();
-  return named(names_of_peaks(simulation, peaks), found.peaks);
+  const std::vector<std::string> names = names_of_peaks(simulation, peaks);
+  for (LimitEvent& one : limits_of_peaks(simulation, names, found.peaks, trajectory.limits)) trajectory.limits.push_back(std::move(one));
+  return named(names, found.peaks);
 }
 
 // A panel's run as files. What it ended with where it should not have is thrown; with --json it is put into `trouble`, and all that is known is told before.
 Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, TableFiles& files,
                     const Wanted& wanted, const SimulateOptions& options, bool alone, std::optional<Error>& trouble) {
   say_choice(prepared, options.common.quiet);
-  const Trajectory trajectory = run_scene(film, prepared, options);
+  Trajectory trajectory = run_scene(film, prepared, options);
   throw_if_interrupted();
   const DataTable table =
       motion_table(prepared.simulation, trajectory, wanted.columns.empty() ? usual_columns(prepared.simulation.chain) : wanted.columns);
@@ -95,6 +98,7 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
     files.write(table);
   else
     files.write_partial(table);
+  const std::vector<NamedPeak> peaks = peaks_of_run(prepared.simulation, wanted.peaks, trajectory);
   try {
     require_expected_end(trajectory, prepared.scene);
   } catch (const Error& error) {
@@ -102,8 +106,6 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
     if (!options.common.json) throw;
     if (!trouble) trouble = error;
   }
-  const bool has_peaks = is_complete(trajectory.status);  // what a run grows to that is lost is no peak
-  const std::vector<NamedPeak> peaks = has_peaks ? peaks_of_run(prepared.simulation, wanted.peaks) : std::vector<NamedPeak>{};
   const RunReport run = run_report(prepared, trajectory);
   const std::string name = prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'");
   tell_warnings(warning_lines(name, run));

@@ -407,9 +407,7 @@ void run_sweep(SweepOptions options) {
   report["failed"] = worst.failed;
   report.update(files_json(written));
   if (options.common.json) print_json(report);
-  if (worst.failed > 0)
-    throw Error(worst.failed == worst.failed_by_limits ? ExitCode::limit : ExitCode::numerical, std::to_string(worst.failed) + " of the runs failed, first at " + worst.first_failure,
-                {options.scene});
+  require_none_failed(worst, options.scene);
 }
 
 }  // namespace

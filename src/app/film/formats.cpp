@@ -23,11 +23,26 @@ void write_png_still(const OutputFile& file, const StillView& view, const ClipMe
   write_png(file.temporary_path(), image, memory.tags(), memory.width_mm > 0 ? 1000 * image.width / memory.width_mm : 0);
 }
 
+// By it a picture knows whether it was edited.
+const std::string kSvgHash = "<!-- sha256 of what stands above: ";
+
 void write_svg_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
   VectorPage page = memory.page();
   page.height_px = view.height;
-  write_temporary(file, svg_text(view.picture(), view.fonts, page));
+  const std::string text = svg_text(view.picture(), view.fonts, page);
+  write_temporary(file, text + kSvgHash + sha256_of(text) + " -->\n");
 }
+
+}  // namespace
+
+bool is_other_svg(const std::string& text) {
+  const std::size_t at = text.rfind(kSvgHash);
+  if (at == std::string::npos) return false;
+  const std::string head = text.substr(0, at);
+  return text.substr(at) != kSvgHash + sha256_of(head) + " -->\n";
+}
+
+namespace {
 
 void write_pdf_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
   write_temporary(file, pdf_text(view.picture(), view.fonts, memory.page()));

@@ -49,6 +49,9 @@ struct OutputFormat {
 
 std::span<const OutputFormat> output_formats();
 
+// Whether an SVG was edited since the program wrote it; not, where it does not tell.
+bool is_other_svg(const std::string& text);
+
 // By the path's ending, among those that show this or among all; null where no row has it.
 const OutputFormat* find_output_format(const std::string& path, std::optional<Shows> shows = {});
 

@@ -83,6 +83,29 @@ void require_peaks(const Simulation& simulation, const PeaksAsked& asked, const 
     if (std::ranges::count(plain, one) == 0) throw Error(ExitCode::usage, option + ": the model has no " + one + "; it has " + joined(plain));
 }
 
+std::vector<LimitEvent> limits_of_peaks(const Simulation& simulation, const std::vector<std::string>& names, const std::vector<Peak>& peaks, const std::vector<LimitEvent>& seen) {
+  std::vector<LimitEvent> passed;
+  const auto look = [&](const Joint& joint, const char* quantity, const std::string& column, double lower, double upper) {
+    const auto name = std::ranges::find_if(names, [&](const std::string& one) { return ColumnName(one).name == column; });
+    if (name == names.end()) return;
+    const Peak& peak = peaks[std::size_t(name - names.begin())];
+    const double limit = peak.value > 0 ? upper : lower;
+    const bool is_beyond = peak.value > 0 ? peak.value > upper + touched(upper) : peak.value < lower - touched(lower);
+    const auto is_same = [&](const LimitEvent& one) { return one.joint == joint.name && one.quantity == quantity; };
+    if (is_beyond && std::ranges::none_of(seen, is_same)) passed.push_back({joint.name, quantity, peak.t, peak.value, std::string(quantity) == "position" ? limit : std::abs(limit)});
+  };
+  const Chain& chain = simulation.chain;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Joint& joint = chain.bodies[b].joint;
+    if (joint.kind == JointKind::floating || chain.coordinate_names[std::size_t(joint.v_index)] != joint.name) continue;
+    const std::string number = std::to_string(joint.v_index + 1);
+    look(joint, "position", "q" + number, joint.limit.lower, joint.limit.upper);
+    look(joint, "velocity", "qd" + number, -joint.limit.velocity, joint.limit.velocity);
+    look(joint, "effort", "tau" + number, -joint.limit.effort, joint.limit.effort);
+  }
+  return passed;
+}
+
 std::vector<std::string> names_of_peaks(const Simulation& simulation, const PeaksAsked& asked) {
   std::vector<std::string> names = names_in(simulation, asked.columns);
   std::erase_if(names, [&](const std::string& name) { return !asked.hold(name); });

@@ -41,6 +41,9 @@ struct PeaksOfRun {
 };
 PeaksOfRun simulate_for_peaks(const Simulation& simulation, const PeaksAsked& asked, const StopRequest& stop = {});
 
+// Limits of joints that peaks of q, qd and tau lie beyond, and that are not among those that the run was seen to pass: of a peak between all that it looked at.
+std::vector<LimitEvent> limits_of_peaks(const Simulation& simulation, const std::vector<std::string>& names, const std::vector<Peak>& peaks, const std::vector<LimitEvent>& seen);
+
 // Those of a table's columns but of t, at its rows alone.
 struct NamedPeak {
   std::string name, unit;

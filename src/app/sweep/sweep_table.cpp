@@ -157,7 +157,8 @@ class RowMaker {
       require_possible(simulation);
       const auto stop = [](double) { return interrupted(); };
       if (job_.peaks.empty()) return row + row_of(scene, simulation, simulate(simulation, looks_at(scene.duration), stop), {});
-      const PeaksOfRun found = simulate_for_peaks(simulation, job_.peaks, stop);
+      PeaksOfRun found = simulate_for_peaks(simulation, job_.peaks, stop);
+      for (LimitEvent& one : limits_of_peaks(simulation, names_of_peaks(simulation, job_.peaks), found.peaks, found.run.limits)) found.run.limits.push_back(std::move(one));
       return row + row_of(scene, simulation, found.run, found.peaks);
     } catch (const Error& error) {
       throw_if_interrupted();
@@ -202,6 +203,7 @@ class RowMaker {
     for (const std::string& doubt : scene.doubts)
       if (std::ranges::find(known_, doubt) == known_.end()) trouble += (trouble.empty() ? kDoubtful : "; ") + doubt;
     if (const std::string limits = limits_of(scene, run); !limits.empty() && is_complete(run.status)) trouble += (trouble.empty() ? "" : "; ") + limits;
+    if (!as_expected && trouble.empty()) trouble = "was expected to diverge, but " + to_string(run.status);
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));
@@ -356,7 +358,11 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
 
   const std::string& path = job.paths.front();
   const std::string head = head_of(job, first, simulation.chain, peaks);
-  if (job.looks_at_names) job.looks_at_names(csv_fields(last_line_of(head), {path}));
+  const std::vector<std::string> names = csv_fields(last_line_of(head), {path});
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw Error(ExitCode::bad_input, "two columns of the table would be called " + *name + ": give the events other names", first.place_of("events"));
+  if (job.looks_at_names) job.looks_at_names(names);
   Copies copies(job);
   GrowingTable table(path, head, std::size_t(job.runs.first),
                      std::size_t(job.runs.behind - job.runs.first), job.overwrite);
@@ -434,7 +440,7 @@ TablePart read_head(const std::string& path) {
 
 }  // namespace
 
-void join_tables(const std::vector<std::string>& paths, const std::string& path, bool overwrite) {
+SweepOutcome join_tables(const std::vector<std::string>& paths, const std::string& path, bool overwrite) {
   std::vector<TablePart> parts;
   for (const std::string& one : paths) {
     parts.push_back(read_head(one));
@@ -459,6 +465,15 @@ void join_tables(const std::vector<std::string>& paths, const std::string& path,
     throw Error(ExitCode::bad_input, "runs " + std::to_string(next) + " to " + std::to_string(parts.front().all - 1) + " are missing",
                 {path});
 
+  const std::vector<std::string> names = csv_fields(parts.front().names, {parts.front().path});
+  const auto good = std::size_t(std::ranges::find(names, "good") - names.begin());
+  SweepOutcome outcome;
+  const auto look = [&](const std::string& row, int run) {
+    const std::vector<std::string> cells = csv_fields(row, {path});
+    if (good >= cells.size() || cells[good] != "0") return;
+    if (outcome.failed++ == 0) outcome.first_failure = "run " + std::to_string(run) + ": " + cells.back();
+    outcome.failed_by_limits += cells.back().find(kLimits) != std::string::npos ? 1 : 0;
+  };
   OutputFile output(path, overwrite);
   std::ofstream out(output.temporary_path(), std::ios::binary);
   out << parts.front().facts << runs_line({0, next}, std::size_t(next)) << parts.front().names << "\n";
@@ -468,7 +483,10 @@ void join_tables(const std::vector<std::string>& paths, const std::string& path,
     for (int k = 0; k < 4; ++k) std::getline(stream, line);
     int run = part.runs.first;
     // A row whose end is lost is none, nor is one of another run.
-    for (; run < part.runs.behind && std::getline(stream, line) && !stream.eof() && line.starts_with(std::to_string(run) + ","); ++run) out << line << "\n";
+    for (; run < part.runs.behind && std::getline(stream, line) && !stream.eof() && line.starts_with(std::to_string(run) + ","); ++run) {
+      look(line, run);
+      out << line << "\n";
+    }
     const bool ends = std::getline(stream, line) && line.starts_with(kHashOfRows);
     if (run != part.runs.behind || !ends)
       throw Error(ExitCode::bad_input, "does not hold the rows that it tells of", {part.path});
@@ -478,6 +496,14 @@ void join_tables(const std::vector<std::string>& paths, const std::string& path,
   out.close();
   if (!out) throw Error(ExitCode::file, "could not be written whole: is the disk full?", {path});
   output.commit();
+  outcome.done = std::size_t(next);
+  return outcome;
+}
+
+void require_none_failed(const SweepOutcome& outcome, const std::string& file) {
+  if (outcome.failed == 0) return;
+  throw Error(outcome.failed == outcome.failed_by_limits ? ExitCode::limit : ExitCode::numerical,
+              std::to_string(outcome.failed) + " of the runs failed, first at " + outcome.first_failure, {file});
 }
 
 }  // namespace chainreel

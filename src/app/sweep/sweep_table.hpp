@@ -39,7 +39,10 @@ void refuse_unknown_keys(const std::string& scene, const std::vector<std::string
 SweepOutcome write_sweep_table(const SweepTableJob& job);
 
 // Parts of one table, by `--shard`, to the whole: the bytes of one that was computed whole. Throws Error (exit 3) where some
-// are missing, doubled or of another sweep.
-void join_tables(const std::vector<std::string>& parts, const std::string& path, bool overwrite);
+// are missing, doubled or of another sweep. What its rows come to is that of the sweep, but for peaks.
+SweepOutcome join_tables(const std::vector<std::string>& parts, const std::string& path, bool overwrite);
+
+// Throws Error (numerical) where some have, (limit) where all of these pass limits that they should have kept.
+void require_none_failed(const SweepOutcome& outcome, const std::string& file);
 
 }  // namespace chainreel

@@ -123,10 +123,19 @@ struct Today {
   bool has_other_versions = false;
   std::optional<Error> trouble{};  // it cannot be told
   bool is_gone = false;          // an audit tells of it, and it is not there
+  bool is_far = false;           // its scene has the name that it remembers, and lies where another course's may, too
   Remaking again{};
 
   bool is_same() const { return words.empty() && facts.empty() && !trouble && !is_gone; }
 };
+
+// Whether a scene or model that was found by its name lies neither above the picture nor beside the folder that holds it.
+bool lies_elsewhere(const std::string& picture, const std::string& scene) {
+  std::error_code code;
+  const fs::path own = fs::weakly_canonical(fs::absolute(picture), code).parent_path(), other = fs::weakly_canonical(fs::absolute(scene), code).parent_path();
+  const auto [parted, at] = std::mismatch(own.begin(), own.end(), other.begin(), other.end());
+  return at != other.end() && std::distance(parted, own.end()) > 1;
+}
 
 Today difference_of(const std::string& path, const Json& beside, const ClipMemory& film, const ClipMemory& today, const PreparedFilm& prepared) {
   Today found{.path = path, .scene = prepared.scene.file};
@@ -279,7 +288,7 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   Today found{.path = path, .scene = model.empty() ? first_file_of(moved) : word_of(moved, "model")};
   const std::vector<std::string> words = moved.value("arguments", std::vector<std::string>());
   if (figure.contains(kInputs)) {
-    found.words = changed_inputs(figure[kInputs], inputs_today(words, figure.value("files", std::vector<std::size_t>()), path));
+    found.words = changed_inputs(figure[kInputs], inputs_today(words, figure.value("files", std::vector<std::size_t>()), path), keys_of_command(words));
   } else {
     const ModelSource source(found.scene);
     if (compare_model_files(figure, {{"model_sha256", source.sha256()}, {"model_elements_sha256", source.elements_sha256()}}) == ModelFiles::other)
@@ -288,6 +297,7 @@ Today figure_of_today(const std::string& path, const ClipMemory& remembered) {
   if (!model.empty())
     for (std::string& one : changed_poses(figure, found.scene)) found.words.push_back(std::move(one));
   if (has_other_pixels(path)) found.words.emplace_back(kOtherPixels);
+  found.is_far = figure.value(kShipped, Json()) != Json(true) && lies_elsewhere(path, found.scene);
   found.again.command = words_behind_program(words, figure.value("files", std::vector<std::size_t>()), path);
   found.again.command.insert(found.again.command.end(), {"-o", typed_path(path), "--force"});
   return found;
@@ -321,6 +331,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   if (!audit.is_changed && has_other_pixels(path)) nearest.words.insert(nearest.words.begin(), kOtherPixels);
   for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
   nearest.again = remaking_of(asked, film, remembered.audit, common);
+  nearest.is_far = scene.empty() && !asked.scene.empty() && remembered.audit.value(kShipped, Json()) != Json(true) && lies_elsewhere(path, asked.scene);
   return nearest;
 }
 
@@ -345,6 +356,7 @@ void print_today(const Today& one) {
   for (const std::string& line : one.words) std::printf("  %s\n", line.c_str());
   if (one.words.empty())
     for (const std::string& line : one.facts) std::printf("  %s\n", line.c_str());
+  if (!one.is_same() && one.is_far) std::printf("  its scene was found in another folder, by the name alone: if it is another one, name the right one by --scene\n");
   if (!one.is_same() && !one.again.knows_set) std::printf("  what --set changed when it was made is not known, as no audit lies beside it: give it again\n");
   if (!one.is_same() && !one.again.command.empty()) std::printf("  made again by: %s\n", shell_line(one.again.command).c_str());
   if (const std::vector<std::string> foreign = one.is_same() ? std::vector<std::string>() : foreign_beside(one.again.command); !foreign.empty())
@@ -376,15 +388,17 @@ Problem stale_files(const std::vector<std::string>& asked, const std::vector<Tod
 // For a shell nothing else is told: what is as it should be has no line. What would be lost or is not known is told in place of a command that runs.
 void print_commands(const std::vector<Today>& all) {
   std::vector<std::vector<std::string>> commands;
-  std::map<std::vector<std::string>, bool> knows_set;
-  for (const Today& one : all)
-    if (!one.is_same() && !one.again.command.empty() && knows_set.try_emplace(one.again.command, one.again.knows_set).second) commands.push_back(one.again.command);
+  std::map<std::vector<std::string>, std::string> remarks;
+  for (const Today& one : all) {
+    const std::string remark = one.is_far                ? "# its scene was found in another folder, by the name alone: "
+                               : !one.again.knows_set ? "# what --set changed is not known, as no audit lies beside it: "
+                                                      : "";
+    if (!one.is_same() && !one.again.command.empty() && remarks.try_emplace(one.again.command, remark).second) commands.push_back(one.again.command);
+  }
   put_in_order(commands);
   for (const std::vector<std::string>& command : commands) {
     const std::vector<std::string> foreign = foreign_beside(command);
-    const std::string remark = !foreign.empty()          ? "# it would replace " + joined(foreign) + ", which this program did not write so: "
-                               : !knows_set.at(command) ? "# what --set changed is not known, as no audit lies beside it: "
-                                                        : "";
+    const std::string remark = !foreign.empty() ? "# it would replace " + joined(foreign) + ", which this program did not write so: " : remarks.at(command);
     std::printf("%s%s\n", remark.c_str(), shell_line(command).c_str());
   }
 }

@@ -130,16 +130,23 @@ bool are_known(const Json& inputs) {
   return inputs.is_array() && !inputs.empty() && std::none_of(inputs.begin(), inputs.end(), [](const Json& one) { return !one.is_object(); });
 }
 
+std::vector<std::string> keys_of_command(const std::vector<std::string>& words) {
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    for (const char* option : {"--over", "--sweep", "--x", "--y"})
+      if (words[i] == option) keys.push_back(words[i + 1].substr(0, words[i + 1].find('=')));
+  return keys;
+}
+
 std::vector<std::string> keys_without_numbers(const std::vector<std::string>& words) {
-  // Tables of other commands have titles in their heads.
-  static const std::vector<std::string> kCommands = {"simulate", "sweep", "fall", "inverse", "equations"};
+  // Of others nothing is known.
+  static const std::vector<std::string> kCommands = {"simulate", "sweep", "fall", "inverse", "equations", "energy", "stability"};
   if (words.empty() || std::ranges::count(kCommands, words.front()) == 0) return {};
-  std::vector<std::string> keys{"title", "acknowledge", "draw", "theme", "text_scale", "style", "annotate"};
+  std::vector<std::string> keys = keys_of_command(words);
+  keys.insert(keys.end(), {"title", "acknowledge", "draw", "theme", "text_scale", "style", "annotate"});
   if (words.front() == "equations")  // of the mechanism
     keys.insert(keys.end(), {"start", "torque", "push", "method", "step", "tolerance", "order", "accuracy", "duration", "ellipse", "camera", "plot", "layout", "video",
                              "slow_motion", "hold", "events", "expect"});
-  for (std::size_t i = 0; i + 1 < words.size(); ++i)
-    if (words[i] == "--over" || words[i] == "--sweep") keys.push_back(words[i + 1].substr(0, words[i + 1].find('=')));
   return keys;
 }
 

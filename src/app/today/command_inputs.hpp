@@ -23,6 +23,8 @@ bool are_known(const Json& inputs);
 // What differs, a sentence each, with the file's name where there are several. `without`: keys of scenes that make no difference.
 std::vector<std::string> changed_inputs(const Json& before, const Json& now, const std::vector<std::string>& without = {});
 
+// Keys that the command sets itself, in each of its runs.
+std::vector<std::string> keys_of_command(const std::vector<std::string>& words);
 // Keys of a scene of which no number in a table of that command tells: those of its picture, and those that the command sets itself.
 std::vector<std::string> keys_without_numbers(const std::vector<std::string>& words);
 

@@ -94,6 +94,7 @@ std::vector<std::string> outputs_of(const std::vector<std::string>& command) {
 }  // namespace
 
 bool has_other_pixels(const std::string& path) {
+  if (lower_case_ending(path) == ".svg") return is_other_svg(read_plain_file(path));
   if (lower_case_ending(path) != ".png") return false;
   const auto text = read_png_text(path);
   const auto written = text.find(kPixels);
@@ -122,8 +123,8 @@ std::vector<std::string> foreign_beside(const std::vector<std::string>& command)
   const auto look = [&](const std::string& path) {
     std::error_code code;
     const bool is_new = std::find(foreign.begin(), foreign.end(), path) == foreign.end() && std::find(outputs.begin(), outputs.end(), path) == outputs.end();
-    const bool has_record = is_own_sidecar(path + ".json") && !is_changed_since(path);
-    if (is_new && fs::exists(fs::symlink_status(path, code)) && !is_own_sidecar(path) && !has_record) foreign.push_back(path);
+    const bool has_record = is_own_sidecar(path + ".json"), is_edited = has_record && is_changed_since(path);
+    if (is_new && fs::exists(fs::symlink_status(path, code)) && (is_edited || (!has_record && !is_own_sidecar(path)))) foreign.push_back(path);
   };
   for (const std::string& output : outputs) {
     if (was_changed(output)) foreign.push_back(output);

@@ -20,7 +20,7 @@ struct Remaking {
 // `shown`: which instant or event a picture is of, and on which paper, as it remembers it.
 Remaking remaking_of(const AskedFilm& asked, const PreparedFilm& film, const Json& shown, const CommonOptions& common);
 
-// Whether a PNG has others than it says itself: no audit lies beside a still. Throws Error (bad input) where it cannot be read.
+// Whether a PNG has others than it says itself, or an SVG another text: no audit lies beside a still. Throws Error (bad input) where it cannot be read.
 bool has_other_pixels(const std::string& path);
 
 // Files that such a command would replace, as it overwrites, though they are not ours, or were changed since: what it writes itself, and what lies beside it.

@@ -155,7 +155,8 @@ void PlotStrip::draw_static(Picture& picture) const {
     const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [](const Point& p) { return std::isfinite(p.y); });
     if (curve.label.empty() || last == curve.points.rend()) continue;
     const Point end = frame_.at(*last);
-    ends.push_back({{end.x, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
+    // A leader from where a curve leaves the plot would be taken for its way on.
+    ends.push_back({{curve.decides ? end.x : frame_.box.x1, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
 }

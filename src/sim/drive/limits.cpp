@@ -48,11 +48,11 @@ bool LimitWatch::check_state(double t, ConstVec q, ConstVec qd) {
     const JointLimit& limit = joint.limit;
     const double value = joint.ratio * q[std::size_t(joint.q_index)] + joint.offset;
     const double rate = joint.ratio * qd[std::size_t(joint.v_index)];
-    if (!one.position_passed && (value < limit.lower || value > limit.upper)) {
+    if (!one.position_passed && (value < limit.lower - touched(limit.lower) || value > limit.upper + touched(limit.upper))) {
       one.position_passed = true;
       added = add(joint, "position", t, value, value < limit.lower ? limit.lower : limit.upper);
     }
-    if (!one.velocity_passed && std::abs(rate) > limit.velocity) {
+    if (!one.velocity_passed && std::abs(rate) > limit.velocity + touched(limit.velocity)) {
       one.velocity_passed = true;
       added = add(joint, "velocity", t, rate, limit.velocity);
     }
@@ -67,13 +67,13 @@ double LimitWatch::distance(std::size_t measure, ConstVec q, ConstVec qd, ConstV
   const double value = joint.ratio * q[std::size_t(joint.q_index)] + joint.offset;
   switch (measure % 4) {
     case 0:
-      return one.position_passed ? kFar : joint.limit.upper - value;
+      return one.position_passed ? kFar : joint.limit.upper + touched(joint.limit.upper) - value;
     case 1:
-      return one.position_passed ? kFar : value - joint.limit.lower;
+      return one.position_passed ? kFar : value - joint.limit.lower + touched(joint.limit.lower);
     case 2:
-      return one.velocity_passed ? kFar : joint.limit.velocity - std::abs(joint.ratio * qd[std::size_t(joint.v_index)]);
+      return one.velocity_passed ? kFar : joint.limit.velocity + touched(joint.limit.velocity) - std::abs(joint.ratio * qd[std::size_t(joint.v_index)]);
     default:
-      return one.effort_passed || !one.has_torque || tau.empty() ? kFar : joint.limit.effort - std::abs(tau[std::size_t(joint.v_index)]);
+      return one.effort_passed || !one.has_torque || tau.empty() ? kFar : joint.limit.effort + touched(joint.limit.effort) - std::abs(tau[std::size_t(joint.v_index)]);
   }
 }
 
@@ -88,7 +88,7 @@ bool LimitWatch::check_effort(double t, Vec tau, bool clamp) {
   bool added = false;
   for (Watched& one : watched_) {
     const double* const torque = excessive(one, tau);
-    if (!torque || one.effort_passed) continue;
+    if (!torque || one.effort_passed || !(std::abs(*torque) > one.joint->limit.effort + touched(one.joint->limit.effort))) continue;
     one.effort_passed = true;
     added = add(*one.joint, "effort", t, *torque, one.joint->limit.effort);
   }

@@ -1,6 +1,8 @@
 // The limits of the model's joints during a run: what was passed first, where and when.
 #pragma once
 
+#include <cmath>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,10 @@ enum class LimitPolicy {
 };
 
 std::span<const Name> names_of(LimitPolicy);
+
+// What lies beyond a limit by no more than this of it, or of 1, is rounding: it was touched.
+inline constexpr double kTouched = 1e-12;
+inline double touched(double limit) { return kTouched * std::max(1.0, std::abs(limit)); }
 
 // The first time that a joint passed one of its limits.
 struct LimitEvent {

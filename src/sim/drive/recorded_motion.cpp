@@ -124,9 +124,9 @@ void doubt_noise(const Table& table, const TimeTable& motion, std::vector<std::s
     worst = std::max(worst, noise);
   }
   if (!names.empty())
-    doubts.push_back("the rows of " + names + " in " + table.file + " are noisy, rounded (they or their times) or too far apart: of the accelerations that follow, " +
-                     (worst < 1 ? "as much as " + format_significant(100 * worst, 2) + " % change" : "all or more changes") +
-                     " from row to row as in no motion, and the torques with them; smooth the rows before, or give " + (group == 0 ? "qd and qdd" : "qdd"));
+    doubts.push_back("the rows of " + names + " in " + table.file + " are noisy, rounded (they or their times) or too far apart: the accelerations that follow jump from row to row by " +
+                     (worst < 1 ? "as much as " + format_significant(100 * worst, 2) + " % of their size" : "their own size and more") +
+                     ", as in no motion, and the torques with them; smooth the rows before, or give " + (group == 0 ? "qd and qdd" : "qdd"));
 }
 
 // By which factor told rates differ from those of the splines: of what both add up to, in which noise of single rows goes

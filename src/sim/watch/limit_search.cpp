@@ -22,8 +22,8 @@ double value_of_limit(const LimitEvent& seen, ChainSystem& system, double t, Con
 }
 
 double beyond(const LimitEvent& seen, double value) {
-  if (seen.quantity != "position") return std::fabs(value) - seen.limit;
-  return seen.value > seen.limit ? value - seen.limit : seen.limit - value;
+  if (seen.quantity != "position") return std::fabs(value) - seen.limit - touched(seen.limit);
+  return (seen.value > seen.limit ? value - seen.limit : seen.limit - value) - touched(seen.limit);
 }
 
 }  // namespace

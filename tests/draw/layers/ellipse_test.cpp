@@ -125,7 +125,7 @@ TEST(Ellipse, FillsTheBandBetweenItsLinesAndFadesItBeforeTheEdge) {
 
 TEST(Ellipse, NearlySingularIsStillNeverANumberThatWasCut) {
   // What is left of the mobility is rounding: the band is open, and its width is the minor axis.
-  const DrawnEllipse nearly({0, 1e-8});
+  const DrawnEllipse nearly({0, 1e-14});
   EXPECT_TRUE(test::all_of<Ellipse>(nearly.picture).empty());
   EXPECT_EQ(nearly.words(), "\u221E\u221E");
   EXPECT_EQ(DrawnEllipse({0, 1e-6}).words(), "1e+12 kg1e+12 kg") << "finite";
