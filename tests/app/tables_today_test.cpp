@@ -155,10 +155,17 @@ TEST(EquationsOfToday, HaveARecordAndAreMadeAgain) {
   const std::string before = read_whole_file(folder.file("out/a.tex"));
   folder.write("a.urdf", heavier(own));
   EXPECT_EQ(run({"check", "out/a.tex", "--today"}).status, 1);
-  const ProgramResult told = run({"check", "out", "--today", "--commands"});
+  const ProgramResult told = run({"check", "out", "--today", "--commands", "--junit", "today.xml"});
   EXPECT_EQ(told.status, 1);
+  const std::string junit = read_whole_file(folder.file("today.xml"));
+  EXPECT_THAT(junit, testing::AllOf(HasSubstr("tests=\"4\" failures=\"4\" errors=\"0\""), HasSubstr("name=\"out/a.tex\""), HasSubstr("type=\"changed\""), HasSubstr("made again by: chainreel equations")));
   EXPECT_EQ(run_told(told.out, folder.path().string()).status, 0) << told.out;
   EXPECT_NE(read_whole_file(folder.file("out/a.tex")), before);
+  EXPECT_EQ(run({"check", "out", "--today", "--junit", "today.xml"}).status, 0) << "its own is replaced";
+  EXPECT_THAT(read_whole_file(folder.file("today.xml")), HasSubstr("failures=\"0\""));
+  folder.write("own.xml", "<mine/>");
+  EXPECT_EQ(run({"check", "out", "--today", "--junit", "own.xml"}).status, 6);
+  EXPECT_EQ(run({"check", "out/a.tex", "--junit", "today.xml"}).status, 2);
   EXPECT_EQ(run({"check", "out", "--today"}).status, 0);
 }
 

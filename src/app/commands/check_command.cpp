@@ -34,6 +34,7 @@ struct CheckOptions {
   std::vector<std::string> files;  // several where they are films
   std::string scene;               // that films are held against
   bool today = false;              // ... or each its own
+  std::string junit;               // a file for what is found
   bool commands = false;           // that make anew what is another thing today
   bool all = false;                // candidates of a method that is chosen
   CommonOptions common;
@@ -328,7 +329,8 @@ void run_check(const CheckOptions& options) {
   if (options.commands && (!is_of_today || options.common.json))
     throw Error(ExitCode::usage, "--commands goes with --today and without --json, which has each film's `command`: chainreel check out/ --today --commands | sh");
   if (are_films && options.all) throw Error(ExitCode::usage, "--all goes with a scene, whose method is chosen");
-  if (is_of_today) return check_of_today(options.files, options.scene, options.commands, options.common);
+  if (!is_of_today && !options.junit.empty()) throw Error(ExitCode::usage, "--junit goes with --today: chainreel check out/ --today --junit out/today.xml");
+  if (is_of_today) return check_of_today(options.files, options.scene, options.commands, options.junit, options.common);
   if (options.files.size() > 1 || (are_films && std::filesystem::is_directory(options.file(), code)))
     throw Error(ExitCode::usage, "takes one scene, model or film; several films, or a folder of them, go with --today");
   if (are_films) return check_as_written(options.file(), options.common);
@@ -345,6 +347,7 @@ void add_check_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   command->add_flag("--today", options->today, "of films, pictures and tables: would their scenes, which the audits beside them name, make the same today?");
   command->add_option("--scene", options->scene, "the same of this scene").names_input();
+  command->add_option("--junit", options->junit, "with --today: results as JUnit XML, a case a film, picture or table");
   command->add_flag("--commands", options->commands, "with --today: print the commands that make anew what is another thing today, for a shell");
   command->add_flag("--all", options->all, "of a method that is chosen, all candidates instead of the three next best");
   add_json_option(*command, options->common);

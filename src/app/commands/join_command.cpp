@@ -172,7 +172,7 @@ struct JoinedFiles {
 
 Json joined_json(const JoinOptions& options, Json frames) {
   Json json = files_json({options.output});
-  json.update({{"parts", options.parts.size()}, {"frames", std::move(frames)}});
+  json.update({{"parts", options.parts.size()}, {"frames", std::move(frames)}, {"failed", nullptr}});
   return json;
 }
 

@@ -86,7 +86,7 @@ std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const PeaksAsk
   return named(names, found.peaks);
 }
 
-// A panel's run as files. What it ended with where it should not have is thrown; with --json it is put into `trouble`, and all that is known is told before.
+// A panel's run as files. What it ended with where it should not have is put into `trouble`; all that is known is told before it is thrown.
 Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, TableFiles& files,
                     const Wanted& wanted, const SimulateOptions& options, bool alone, std::optional<Error>& trouble) {
   say_choice(prepared, options.common.quiet);
@@ -103,8 +103,8 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
     require_expected_end(trajectory, prepared.scene);
   } catch (const Error& error) {
     throw_if_interrupted();
-    if (!options.common.json) throw;
     if (!trouble) trouble = error;
+    if (!is_complete(trajectory.status) && !options.common.json) throw;
   }
   const RunReport run = run_report(prepared, trajectory);
   const std::string name = prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'");
@@ -115,6 +115,7 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
   report["panels"] = Json::array();
   report["rows"] = trajectory.size();
   report["peaks"] = to_json(peaks);
+  report["is_whole"] = is_complete(trajectory.status) || prepared.scene.expect == Outcome::diverge;
   report.update(files_json(files.paths()));
   if (options.common.json) return report;
   files.tell(options.common, table.rows, {}, peaks.empty() ? "" : words_of(peaks));
@@ -180,10 +181,10 @@ void run_simulate(const SimulateOptions& options) {
     TableFiles files(paths, options.common);
     records.open(paths, outputs);
     reports.push_back(simulate_panel(film, film.panels[i], files, wanted, options, alone, trouble));
-    if (!trouble) records.write();
+    if (reports.back()["is_whole"] == Json(true)) records.write();
+    reports.back().erase("is_whole");
   }
-  if (!options.common.json) return;
-  print_reports(film.scene, reports, alone);
+  if (options.common.json) print_reports(film.scene, reports, alone);
   if (trouble) throw Error(*trouble);
 }
 

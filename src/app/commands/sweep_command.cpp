@@ -378,7 +378,7 @@ void run_sweep(SweepOptions options) {
                     one.is_of_all() ? "the same in all runs" : ("in run " + std::to_string(one.run) + ": " + joined(grid.settings(one.run), " ")).c_str());
     if (outcome.failed > worst.failed) worst = outcome;
     if (outcome.with_repeats > 0 && written.size() == 1 && !options.common.quiet)
-      std::fprintf(stderr, "note: %s: in %zu of %zu rows an event happens more than once: its column has the first instant, last_.. the last and times_.. how often\n",
+      std::fprintf(stderr, "note: %s: in %zu of %zu rows an event happens more than once: its column has the first instant, last_.. the last, times_.. how often and holds_.. whether it holds at the end\n",
                    path.c_str(), outcome.with_repeats, std::size_t(runs.behind - runs.first));
     if (outcome.beyond_limits > 0 && written.size() == 1 && !options.common.quiet)
       std::fprintf(stderr, "note: %s: %zu of %zu rows pass limits of joints: their column `trouble` names them\n", path.c_str(), outcome.beyond_limits,
@@ -436,7 +436,7 @@ void add_sweep_command(CommandLine& app) {
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer("A table has a row a run: its last state and the energy there, what --peaks and --last ask for, and of each event its first instant, its last one\n"
-                  "(last_NAME) and how often it happens (times_NAME), so that last_settled is a settling time; `trouble` says\n"
+                  "(last_NAME), how often it happens (times_NAME) and whether it holds at the end (holds_NAME): where that is 1, last_settled is a settling time; `trouble` says\n"
                   "why it failed, or that its energy is off by more than 1 % of what it moved. Tables are computed by\n"
                   "dop853 with tolerance 1e-10 where a scene leaves its method to auto, which asks what a page shows; films and pictures\n"
                   "by what auto takes.\n"

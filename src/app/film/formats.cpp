@@ -24,13 +24,14 @@ void write_png_still(const OutputFile& file, const StillView& view, const ClipMe
 }
 
 // By it a picture knows whether it was edited.
-const std::string kSvgHash = "<!-- sha256 of what stands above: ";
+const std::string kSvgHash = "<!-- sha256 of what stands above: ", kSvgEnd = "</svg>\n";
 
 void write_svg_still(const OutputFile& file, const StillView& view, const ClipMemory& memory) {
   VectorPage page = memory.page();
   page.height_px = view.height;
-  const std::string text = svg_text(view.picture(), view.fonts, page);
-  write_temporary(file, text + kSvgHash + sha256_of(text) + " -->\n");
+  std::string text = svg_text(view.picture(), view.fonts, page);
+  text.erase(text.size() - kSvgEnd.size());
+  write_temporary(file, text + kSvgHash + sha256_of(text) + " -->\n" + kSvgEnd);
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ bool is_other_svg(const std::string& text) {
   const std::size_t at = text.rfind(kSvgHash);
   if (at == std::string::npos) return false;
   const std::string head = text.substr(0, at);
-  return text.substr(at) != kSvgHash + sha256_of(head) + " -->\n";
+  return text.substr(at) != kSvgHash + sha256_of(head) + " -->\n" + kSvgEnd;
 }
 
 namespace {

@@ -141,7 +141,7 @@ const std::vector<JsonReport>& json_reports() {
                   {"unused, pruned, notices", "names, and what is to be known"},
                   {"accept", "the command that takes what failed as new baselines; or null"}}},
       {"extract", with(kFiles, {{"scene, audit", "of a clip; or null"}, {"command, figure", "of a figure; or null"}})},
-      {"join", with(kFiles, {{"parts, frames", "how many; frames is null of a table"}, {"failed", "of a table: rows whose runs failed"}})},
+      {"join", with(kFiles, {{"parts, frames", "how many; frames is null of a table"}, {"failed", "of a table, how many of its runs failed; or null"}})},
       {"init", kFiles},
       {"gallery", with(kFiles, {{"clips, pictures", "how many"}})},
       {"bench", {{"films", "[{scene, width, height, fps, frames, stages, whole, encoder_alone, ..}]"}}},

@@ -68,9 +68,9 @@ std::size_t SeenRows::look_at_peaks(const std::string& row, std::size_t run, std
 void SeenRows::look_at_events(const std::string& row, std::size_t comma) {
   bool has_repeats = false;
   for (std::size_t i = 0; i < events_ && comma < row.size(); ++i) {
-    const std::size_t before = skip_cells(row, comma, kCellsOfEvent - 1);
-    comma = end_of_cell(row, std::min(before + 1, row.size()));
-    const std::optional<double> times = parse_number(std::string_view(row).substr(std::min(before + 1, row.size()), comma - std::min(before + 1, comma)));
+    const std::size_t begin = std::min(skip_cells(row, comma, 2) + 1, row.size()), end = end_of_cell(row, begin);
+    const std::optional<double> times = parse_number(std::string_view(row).substr(begin, end - begin));
+    comma = skip_cells(row, comma, kCellsOfEvent);
     has_repeats |= times.value_or(0) > 1;
   }
   outcome_.with_repeats += has_repeats ? 1 : 0;

@@ -13,8 +13,8 @@ namespace chainreel {
 // How what speaks against a row begins, in its column `trouble`.
 inline const std::string kDoubtful = "doubtful: ", kLimits = "limits: ";
 
-// Columns of an event: its first and last instant, and how often it happens.
-inline constexpr std::size_t kCellsOfEvent = 3;
+// Columns of an event: its first and last instant, how often it happens, and whether it holds at the end.
+inline constexpr std::size_t kCellsOfEvent = 4;
 
 // The largest of a column of peaks, in magnitude; of equal ones that of the first run.
 struct SweepPeak {

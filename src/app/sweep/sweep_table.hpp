@@ -1,4 +1,4 @@
-// What the runs of a grid come to, as a table: a row a run, with its last state, the first and last time of each event and how often it happens.
+// What the runs of a grid come to, as a table: a row a run, with its last state, the first and last time of each event, how often it happens and whether it holds at the end.
 #pragma once
 
 #include <functional>
@@ -37,6 +37,9 @@ void refuse_unknown_keys(const std::string& scene, const std::vector<std::string
 // as long as the scene, its model and all that they read are the same. Throws what the first run is refused for where all are, Error (exit
 // 6), and the signal's.
 SweepOutcome write_sweep_table(const SweepTableJob& job);
+
+// "# runs: 0 to 3 of 8", the line of facts by which parts of a table are put together.
+std::string runs_line(const FrameRange& runs, std::size_t all);
 
 // Parts of one table, by `--shard`, to the whole: the bytes of one that was computed whole. Throws Error (exit 3) where some
 // are missing, doubled or of another sweep. What its rows come to is that of the sweep, but for peaks.

@@ -20,6 +20,7 @@
 #include "app/paper/paper_film.hpp"
 #include "app/report/audit_check.hpp"
 #include "app/report/driving_tables.hpp"
+#include "app/report/junit.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/report/run_report.hpp"
 #include "app/report/sidecar.hpp"
@@ -239,6 +240,12 @@ std::vector<std::string> words_behind_program(std::vector<std::string> words, co
   std::vector<std::string> all{"chainreel"};
   for (const std::size_t i : files)
     if (i < words.size()) words[i] = typed_path(words[i]);
+  // Each of its files is made by itself: flags that are of another one's form go.
+  const std::string ending = lower_case_ending(path);
+  if (!words.empty() && words.front() == "equations") {
+    if (ending != ".tex") std::erase(words, "--document");
+    if (ending == ".py" || ending == ".json") std::erase(words, "--theta");
+  }
   for (const std::string& word : words)
     if (word.starts_with("-o") || word.starts_with("--output") || word.starts_with("--force"))
       throw Error(ExitCode::bad_input, "remembers a command that says where to write, which no program of ours does: it was changed by hand", {path});
@@ -403,6 +410,21 @@ void print_commands(const std::vector<Today>& all) {
   }
 }
 
+std::vector<JunitCase> cases_of(const std::vector<Today>& all) {
+  std::vector<JunitCase> cases;
+  for (const Today& one : all) {
+    JunitCase found{.group = one.scene, .name = one.path, .is_error = one.trouble.has_value()};
+    if (one.trouble) found.fault = "unknown", found.message = one.trouble->problems().front().message;
+    if (!one.trouble && !one.is_same()) {
+      found.fault = one.is_gone ? "gone" : "changed";
+      found.message = one.is_gone ? "is gone" : "is not what its scene shows today";
+      found.text = joined(one.words.empty() ? one.facts : one.words, "\n") + (one.again.command.empty() ? "" : "\nmade again by: " + shell_line(one.again.command));
+    }
+    cases.push_back(found);
+  }
+  return cases;
+}
+
 Json report_of(const Today& one) {
   return {{"file", one.path}, {"scene", one.scene}, {"set", one.again.set}, {"command", one.again.command}, {"is_same", one.is_same()}, {"changed", one.words}, {"audit_changed", one.facts},
           {"has_other_versions", one.has_other_versions}, {"is_gone", one.is_gone}, {"trouble", one.trouble ? Json(one.trouble->problems().front().message) : Json(nullptr)}};
@@ -413,7 +435,7 @@ Json report_of(const Today& one) {
 bool is_film_or_picture(const std::string& path) {
   constexpr std::array<const char*, 3> kBeside = {".json", ".txt", ".srt"};
   const std::string ending = lower_case_ending(path);
-  return find_output_format(path) != nullptr || std::find(kBeside.begin(), kBeside.end(), ending) != kBeside.end();
+  return find_output_format(path) != nullptr || is_table(path) || std::find(kBeside.begin(), kBeside.end(), ending) != kBeside.end();
 }
 
 void check_as_written(const std::string& path, const CommonOptions& common) {
@@ -427,7 +449,7 @@ void check_as_written(const std::string& path, const CommonOptions& common) {
   if (!check.passes()) throw Error(ExitCode::comparison_failed, "is not what its audit tells of", {path});
 }
 
-void check_of_today(const std::vector<std::string>& paths, const std::string& scene, bool as_commands, const CommonOptions& common) {
+void check_of_today(const std::vector<std::string>& paths, const std::string& scene, bool as_commands, const std::string& junit, const CommonOptions& common) {
   const AskedFilms asked = asked_films(paths);
   if (!common.quiet) tell_passed_over(asked.passed_over);
   std::vector<Today> all;
@@ -450,6 +472,7 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
     if (as_commands) return print_commands(all);
     for (const Today& one : all) print_today(one);
   });
+  if (!junit.empty()) write_junit(junit, junit_text(joined(paths), cases_of(all)));
   std::vector<Problem> troubles;
   for (const Today& one : all) {
     if (!one.trouble) continue;

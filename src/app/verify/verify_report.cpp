@@ -1,18 +1,16 @@
 #include "app/verify/verify_report.hpp"
 
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <fstream>
 
 #include "app/cli/shell_word.hpp"
+#include "app/report/junit.hpp"
 #include "core/format.hpp"
 
 namespace chainreel {
 namespace {
 
 // By which reports are known as ours.
-const char* const kJunitName = "chainreel verify";
 const char* const kAccepted = "Pictures as accepted";
 const char* const kChanged = "Pictures changed";
 
@@ -106,31 +104,17 @@ Json to_json(const SuiteResult& result) {
 }
 
 std::string junit_text(const SuiteResult& result) {
-  tinyxml2::XMLPrinter printer;
-  printer.PushHeader(false, true);
-  printer.OpenElement("testsuites");
-  printer.PushAttribute("name", kJunitName);
-  printer.OpenElement("testsuite");
-  printer.PushAttribute("name", printable(result.suite).c_str());
-  printer.PushAttribute("tests", int(result.pictures.size()));
-  printer.PushAttribute("failures", result.failed() - result.count(PictureState::failed));
-  printer.PushAttribute("errors", result.count(PictureState::failed));
+  std::vector<JunitCase> cases;
   for (const PictureVerdict& one : result.pictures) {
-    printer.OpenElement("testcase");
-    printer.PushAttribute("classname", one.source.c_str());
-    printer.PushAttribute("name", one.name.c_str());
+    JunitCase found{.group = one.source, .name = one.name, .is_error = one.state == PictureState::failed};
     if (!one.passes) {
-      printer.OpenElement(one.state == PictureState::failed ? "error" : "failure");
-      printer.PushAttribute("type", plain(one.state).c_str());
-      printer.PushAttribute("message", printable(one.words.empty() ? "" : one.words.front()).c_str());
-      printer.PushText(printable(joined(one.words, "\n") + "\ntolerance: " + one.tolerance).c_str());
-      printer.CloseElement();
+      found.fault = plain(one.state);
+      found.message = one.words.empty() ? "" : one.words.front();
+      found.text = joined(one.words, "\n") + "\ntolerance: " + one.tolerance;
     }
-    printer.CloseElement();
+    cases.push_back(found);
   }
-  printer.CloseElement();
-  printer.CloseElement();
-  return printer.CStr();
+  return junit_text(result.suite, cases);
 }
 
 std::string markdown_text(const SuiteResult& result) {
@@ -155,7 +139,7 @@ bool is_own_report(const std::string& path) {
   file.read(head.data(), std::streamsize(head.size()));
   head.resize(std::size_t(file.gcount()));
   const auto holds = [&](const std::string& words) { return head.find(words) != std::string::npos; };
-  return holds("<testsuites name=\"" + std::string(kJunitName) + "\"") || head.starts_with("## " + std::string(kAccepted) + ": ") ||
+  return is_own_junit(head) || head.starts_with("## " + std::string(kAccepted) + ": ") ||
          head.starts_with("## " + std::string(kChanged) + ": ") || (holds("<!DOCTYPE html>") && holds("content=\"chainreel ") && holds(" verify\">"));
 }
 

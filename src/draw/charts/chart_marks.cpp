@@ -373,6 +373,9 @@ void tell_colours_apart(WorkPrecision& data) {
 
 }  // namespace
 
+// So near to what rounding or the reference leaves, who comes nearest is chance.
+constexpr double kAboveLeast = 30;
+
 void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const std::vector<std::string>& methods) {
   for (ChartCurve& curve : data.curves) {
     curve.is_lit = std::find(methods.begin(), methods.end(), curve.method) != methods.end();
@@ -380,7 +383,7 @@ void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const 
     if (data.choice && data.choice->method == curve.method) curve.is_lit = true;
     for (const ChartCost cost : panels)
       for (const LogPoint& point : good_points(curve, cost))
-        curve.is_lit |= !(std::pow(10, point.error) < data.least_error()) && std::pow(10, point.error) <= data.largest_answer && point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
+        curve.is_lit |= !(std::pow(10, point.error) < kAboveLeast * data.least_error()) && std::pow(10, point.error) <= data.largest_answer && point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
   }
   tell_colours_apart(data);
 }
