@@ -68,7 +68,11 @@ void refine_directions(EffectiveMass& effective, const Eigen::MatrixXd& J, const
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(W, Eigen::ComputeFullV);
   const Eigen::Index rows = J.rows(), known = svd.singularValues().size();
   const double largest = known > 0 ? svd.singularValues()(0) : 0;
-  effective.least = kSingularValue * kSingularValue * largest * largest;
+  // Rounding of J, which gathers along the chain, is magnified by L^-1.
+  constexpr double kRounding = 16 * 0x1p-52;
+  const double rounding = kRounding * double(J.cols()) * J.norm() / Eigen::MatrixXd(factor.matrixL()).diagonal().minCoeff();
+  const double least = std::max(kSingularValue * largest, rounding);
+  effective.least = least * least;
   effective.is_infinite.clear();
   effective.singular_directions.clear();
   for (Eigen::Index k = 0; k < rows; ++k) {
@@ -76,7 +80,7 @@ void refine_directions(EffectiveMass& effective, const Eigen::MatrixXd& J, const
     const double sigma = from < known ? svd.singularValues()(from) : 0;
     effective.mobility(k) = sigma * sigma;
     effective.directions.col(k) = svd.matrixV().col(from);
-    effective.is_infinite.push_back(!(sigma > kSingularValue * largest));
+    effective.is_infinite.push_back(!(sigma > least));
     if (effective.is_infinite.back()) effective.singular_directions.emplace_back(effective.directions.col(k));
   }
 }

@@ -11,7 +11,7 @@
 
 namespace chainreel {
 
-// A singular value of L^-1 J^T, M = L L^T, below this fraction of the largest is what rounding leaves of none: infinite mass in that direction. Its square
+// A singular value of L^-1 J^T, M = L L^T, below this fraction of the largest, or in the rounding of long chains, is what is left of none: infinite mass in that direction. Its square
 // is the eigenvalue of Lambda_inv, in which rounding leaves kSingularFraction: singular values tell a mass a millionth of a microradian beside a stretched arm.
 inline constexpr double kSingularValue = 1e-13;
 inline constexpr double kSingularFraction = 1e-13;

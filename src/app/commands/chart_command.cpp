@@ -317,10 +317,14 @@ std::string doubt_of_end(Simulation& simulation) {
 }
 
 // A run that a limit ends has no error at an end that it does not come to.
-void require_whole_run(const PreparedScene& prepared) {
+void require_whole_run(PreparedScene& prepared) {
+  Simulation& simulation = prepared.simulation;
   if (prepared.scene.limit != LimitPolicy::stop) return;
-  const double end[] = {prepared.simulation.duration};
-  const Trajectory run = simulate(prepared.simulation, end, [](double) { return interrupted(); });
+  const MethodSetting own{simulation.method, simulation.options, simulation.step};
+  apply({&find_method("dop853"), {1e-9, 0}, 0}, simulation);
+  const double end[] = {simulation.duration};
+  const Trajectory run = simulate(simulation, end, [](double) { return interrupted(); });
+  apply(own, simulation);
   throw_if_interrupted();
   if (run.status != RunStatus::stopped) return;
   throw Error(ExitCode::numerical, "the run stops: " + run.trouble + ", and a chart compares runs until their end: take --set duration=" +
@@ -337,9 +341,9 @@ void run_chart(const ChartOptions& options) {
   FigureFiles files(options.figure, "out/" + prepared.scene.name + "_chart.png", options.common.force);
   const std::string doubt = options.judged() == Judged::final ? doubt_of_end(prepared.simulation) : "";
   if (!doubt.empty()) tell_warnings({prepared.scene.name + ": " + doubt});
+  require_whole_run(prepared);
   Measured measured = measure_all(prepared, chosen, options);
   apply(measured.choice->best.setting, prepared.simulation);
-  require_whole_run(prepared);
   warn_of_rank(prepared, prepared.simulation.duration);
   WorkPrecision data = data_of(prepared, measured, options);
   for (const std::string& name : lit)

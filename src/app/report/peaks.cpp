@@ -85,8 +85,9 @@ void require_peaks(const Simulation& simulation, const PeaksAsked& asked, const 
 
 std::vector<LimitEvent> limits_of_peaks(const Simulation& simulation, const std::vector<std::string>& names, const std::vector<Peak>& peaks, const std::vector<LimitEvent>& seen) {
   std::vector<LimitEvent> passed;
-  const auto look = [&](const Joint& joint, const char* quantity, const std::string& column, double lower, double upper) {
-    const auto name = std::ranges::find_if(names, [&](const std::string& one) { return ColumnName(one).name == column; });
+  const auto look = [&](const Joint& joint, const char* quantity, const std::string& symbol, double lower, double upper) {
+    const std::string numbered = symbol + std::to_string(joint.v_index + 1), of_joint = symbol + "." + joint.name;  // of a floating base
+    const auto name = std::ranges::find_if(names, [&](const std::string& one) { return ColumnName(one).name == numbered || ColumnName(one).name == of_joint; });
     if (name == names.end()) return;
     const Peak& peak = peaks[std::size_t(name - names.begin())];
     const double limit = peak.value > 0 ? upper : lower;
@@ -98,10 +99,9 @@ std::vector<LimitEvent> limits_of_peaks(const Simulation& simulation, const std:
   for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
     const Joint& joint = chain.bodies[b].joint;
     if (joint.kind == JointKind::floating || chain.coordinate_names[std::size_t(joint.v_index)] != joint.name) continue;
-    const std::string number = std::to_string(joint.v_index + 1);
-    look(joint, "position", "q" + number, joint.limit.lower, joint.limit.upper);
-    look(joint, "velocity", "qd" + number, -joint.limit.velocity, joint.limit.velocity);
-    look(joint, "effort", "tau" + number, -joint.limit.effort, joint.limit.effort);
+    look(joint, "position", "q", joint.limit.lower, joint.limit.upper);
+    look(joint, "velocity", "qd", -joint.limit.velocity, joint.limit.velocity);
+    look(joint, "effort", "tau", -joint.limit.effort, joint.limit.effort);
   }
   return passed;
 }

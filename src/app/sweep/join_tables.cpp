@@ -72,7 +72,7 @@ SweepOutcome join_tables(const std::vector<std::string>& paths, const std::strin
     const std::vector<std::string> cells = csv_fields(row, {path});
     if (good >= cells.size() || cells[good] != "0") return;
     if (outcome.failed++ == 0) outcome.first_failure = "run " + std::to_string(run) + ": " + cells.back();
-    outcome.failed_by_limits += cells.back().find(kLimits) != std::string::npos ? 1 : 0;
+    outcome.failed_by_limits += cells.back().find(kLimits) != std::string::npos && !cells.back().starts_with(kCalm) ? 1 : 0;
   };
   OutputFile output(path, overwrite);
   std::ofstream out(output.temporary_path(), std::ios::binary);

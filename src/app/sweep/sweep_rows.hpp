@@ -11,7 +11,7 @@
 namespace chainreel {
 
 // How what speaks against a row begins, in its column `trouble`.
-inline const std::string kDoubtful = "doubtful: ", kLimits = "limits: ";
+inline const std::string kDoubtful = "doubtful: ", kLimits = "limits: ", kCalm = "was expected to diverge, but ";
 
 // Columns of an event: its first and last instant, how often it happens, and whether it holds at the end.
 inline constexpr std::size_t kCellsOfEvent = 4;

@@ -218,7 +218,7 @@ class RowMaker {
     for (const std::string& doubt : scene.doubts)
       if (std::ranges::find(known_, doubt) == known_.end()) trouble += (trouble.empty() ? kDoubtful : "; ") + doubt;
     if (const std::string limits = limits_of(scene, run); !limits.empty() && is_complete(run.status)) trouble += (trouble.empty() ? "" : "; ") + limits;
-    if (!as_expected && trouble.empty()) trouble = "was expected to diverge, but " + to_string(run.status);
+    if (!as_expected && scene.expect == Outcome::diverge && is_complete(run.status)) trouble = kCalm + to_string(run.status) + (trouble.empty() ? "" : "; " + trouble);
     std::string row = as_expected ? ",1," : ",0,";
     row += to_string(run.status) + "," + format_shortest(run.end_time) + "," +
            (run.ending_event < 0 ? "" : csv_words(scene.events[std::size_t(run.ending_event)].title()));

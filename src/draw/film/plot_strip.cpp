@@ -142,7 +142,7 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
   // What a run that went wild does behind the point where it leaves the plot is no motion.
   for (StripCurve& curve : data_.curves) {
     if (curve.decides) continue;
-    const auto out = std::ranges::find_if(curve.points, [&](const Point& p) { return !(p.y >= frame_.y.low && p.y <= frame_.y.high); });
+    const auto out = std::ranges::find_if(curve.points, [&](const Point& p) { return p.y < frame_.y.low || p.y > frame_.y.high; });
     if (out != curve.points.end()) curve.points.erase(out + 1, curve.points.end());
   }
 }

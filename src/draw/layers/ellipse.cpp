@@ -316,14 +316,15 @@ std::vector<MassAxis> section_axes(const EffectiveMass& effective, const Eigen::
                                    EllipseReading reading) {
   const double largest = effective.mobility.size() < 3 ? 0 : effective.mobility.maxCoeff();
   if (!(largest > 0)) return mass_axes(effective);
-  const double least = effective.singular_directions.empty() ? 0 : effective.least;
-  // The form of the curve of `energy` grows without bounds at singular poses, where the curve is a segment: a
-  // mass beyond all that counts stands for it.
-  constexpr double kBeyondAll = 1e-3;
+  // The form of the curve of `energy` grows without bounds towards singular poses, where the curve is a segment: a mass beyond all that counts stands for
+  // it, from which the other axis is off by as much as it is by rounding. Eigenvalues of a form are known to rounding of its largest one, those of
+  // `mass` before their root.
+  constexpr double kBeyondAll = 1e-10, kLeastOfMass = 3e-8;
+  const double least = largest * (reading == EllipseReading::mass ? kLeastOfMass : reading == EllipseReading::energy ? 2 * kBeyondAll : kSingularFraction);
   auto values = effective.mobility;
   for (double& m : values) {
     if (reading == EllipseReading::mass) m = m * m;
-    if (reading == EllipseReading::energy) m = 1 / std::max(m, kBeyondAll * least);
+    if (reading == EllipseReading::energy) m = 1 / std::max(m, kBeyondAll * largest);
   }
   const PlaneForm form = form_on_plane(effective, values, plane);
   std::vector<MassAxis> axes;

@@ -22,8 +22,8 @@ bool read_force(Fields& fields, PushEntry& entry) {
     entry.force.push_back(0);
     try {
       entry.force.back() = parse_quantity(text, fields.place_of(node[i], "force." + std::to_string(i + 1)), "N");
-    } catch (const Error& error) {
-      if (has_unit(text)) return fields.problem_at("force", "'" + fields.path("force") + "': " + error.problems().front().message), false;
+    } catch (const Error&) {
+      if (text.empty()) return fields.problem_at("force", "'" + fields.path("force") + "." + std::to_string(i + 1) + "' is empty: write 0 where there is none"), false;
       entry.words.back() = text;
     }
   }
@@ -102,10 +102,12 @@ void find_forces(Fields& fields, Scene& scene) {
       if (push.words[i].empty()) continue;
       const std::string key = "push." + (scene.push.size() > 1 ? std::to_string(k + 1) + "." : "") + "force." + std::to_string(i + 1);
       try {
-        push.force[i] = Expression::parse(push.words[i], names, push.place).evaluate(std::span<const double>(values));
+        const Expression force = Expression::parse(push.words[i], names, push.place);
+        if (force.is_constant() && has_unit(push.words[i])) parse_quantity(push.words[i], push.place, "N");  // throws of what it is no unit of
+        push.force[i] = force.evaluate(std::span<const double>(values));
         if (!std::isfinite(push.force[i])) throw Error(ExitCode::bad_input, "'" + push.words[i] + "' is not a finite number", push.place);
       } catch (const Error& error) {
-        fields.problems().add("'" + fields.path(key) + "': " + error.problems().front().message + "; it takes numbers, N, and expressions of `parameters`", push.place);
+        fields.problems().add("'" + fields.path(key) + "': " + error.problems().front().message + "; it takes numbers, N, and expressions of `parameters`, which have no unit", push.place);
       }
     }
   }

@@ -61,7 +61,7 @@ std::optional<QuadReference> quad_reference(const Simulation& simulation, std::s
   if (!system) return {};
   const std::vector<Quad> q0 = in_quad(simulation.q0), v0 = in_quad(simulation.qd0);
   QuadExtrapolation extrapolation(*system, kColumns, kTolerance);
-  extrapolation.set_limits(stop, kMostAttempts);
+  extrapolation.set_limits(stop, kMostAttempts + long(times.size()));
   QuadReference reference;
   std::optional<States> first, second;
   if (has_series(simulation)) {
@@ -72,7 +72,7 @@ std::optional<QuadReference> quad_reference(const Simulation& simulation, std::s
     reference.how = "Taylor series beside extrapolation of the midpoint rule, in quadruple precision";
   } else {
     QuadExtrapolation other(*system, kOtherColumns, kTolerance * 1e-2);
-    other.set_limits(stop, kMostAttempts);
+    other.set_limits(stop, kMostAttempts + long(times.size()));
     first = states_at(extrapolation, q0, v0, times);
     if (first) second = states_at(other, q0, v0, times);
     reference.how = "extrapolation of the midpoint rule at two orders, in quadruple precision";

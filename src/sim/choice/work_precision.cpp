@@ -203,7 +203,9 @@ constexpr double kFewestInstants = 40;
 // Ends of as many ladders' steps as there are: multiples of 1, 2 or 5 times a power of ten.
 std::vector<double> instants_of(double duration) {
   std::vector<double> times;
-  for (const double step : steps_from(1)) {
+  const double decade = std::floor(std::log10(duration / kFewestInstants)), unit = std::pow(10, std::abs(decade));
+  for (const double digit : {5.0, 2.0, 1.0}) {
+    const double step = decade < 0 ? digit / unit : digit * unit;  // exact, as numbers that one writes are
     if (duration / step < kFewestInstants) continue;
     for (double k = 1; k * step < duration * (1 - 1e-9); ++k) times.push_back(k * step);
     break;

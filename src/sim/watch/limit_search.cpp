@@ -42,8 +42,12 @@ LimitSearch::LimitSearch(ChainSystem& system)
 
 void LimitSearch::read(double t, ConstVec q, ConstVec qd, std::vector<double>& distances) {
   const LimitWatch& limits = system_.limits();
-  const ConstVec tau = limits.have_effort() ? system_.uncut_torque(t, q, qd) : ConstVec{};
-  for (std::size_t k = 0; k < distances.size(); ++k) distances[k] = limits.distance(k, q, qd, tau);
+  tau_.clear();
+  if (limits.have_effort()) {
+    const ConstVec tau = system_.uncut_torque(t, q, qd);
+    tau_.assign(tau.begin(), tau.end());
+  }
+  for (std::size_t k = 0; k < distances.size(); ++k) distances[k] = limits.distance(k, q, qd, tau_);
 }
 
 void LimitSearch::look_within(Integrator& integrator, int looks) {
@@ -63,7 +67,7 @@ void LimitSearch::look_within(Integrator& integrator, int looks) {
       integrator.interpolate(t, q_, qd_);
       read(t, q_, qd_, now_);
       system_.limits().check_state(t, q_, qd_);
-      if (system_.limits().have_effort()) show_effort(t);
+      if (!tau_.empty()) system_.limits().check_effort(t, tau_, false);
     }
     for (std::size_t k = 0; k < now_.size(); ++k) {
       if (now_[k] >= 0 && before_[k] >= 0 && std::isfinite(now_[k])) look_for_a_visit(integrator, k, last, t);
@@ -74,13 +78,6 @@ void LimitSearch::look_within(Integrator& integrator, int looks) {
   }
   known_at_ = end;
   system_.forget_bad_torque();
-}
-
-// Of the state in q_, qd_.
-void LimitSearch::show_effort(double t) {
-  const ConstVec tau = system_.uncut_torque(t, q_, qd_);
-  tau_.assign(tau.begin(), tau.end());
-  system_.limits().check_effort(t, tau_, false);
 }
 
 void LimitSearch::look_for_a_visit(Integrator& integrator, std::size_t measure, double a, double b) {
@@ -95,7 +92,10 @@ void LimitSearch::look_for_a_visit(Integrator& integrator, std::size_t measure, 
   if (!there) return;
   integrator.interpolate(there->t, q_, qd_);
   system_.limits().check_state(there->t, q_, qd_);
-  if (is_effort) show_effort(there->t);
+  if (!is_effort) return;
+  const ConstVec tau = system_.uncut_torque(there->t, q_, qd_);
+  tau_.assign(tau.begin(), tau.end());
+  system_.limits().check_effort(there->t, tau_, false);
 }
 
 std::optional<LimitEvent> first_passing(const LimitEvent& seen, ChainSystem& system, Integrator& integrator) {

@@ -23,11 +23,10 @@ class LimitSearch {
 
  private:
   void read(double t, ConstVec q, ConstVec qd, std::vector<double>& distances);
-  void show_effort(double t);
   void look_for_a_visit(Integrator& integrator, std::size_t measure, double a, double b);
 
   ChainSystem& system_;
-  std::vector<double> q_, qd_, tau_;
+  std::vector<double> q_, qd_, tau_;  // of a look; tau_: uncut, none where no effort is limited
   std::vector<double> before_, now_, change_;  // a measure each; the last: from look to look
   double known_at_ = -1;                       // of before_
 };

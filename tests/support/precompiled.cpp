@@ -1,0 +1,1 @@
+// What most tests read first; see tests/CMakeLists.txt.
