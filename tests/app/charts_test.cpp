@@ -99,6 +99,17 @@ TEST(ChartCommand, JudgesTheWay) {
   }
 }
 
+// A run that a limit stops has no end that others could be compared at: told before anything is measured.
+TEST(ChartCommand, RefusesARunThatALimitStops) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", "model: {links: [0.5], masses: [1], efforts: 1}\ntorque: ['2 * t']\nduration: 2\nlimit: stop\n");
+  const ProgramResult stopped = run_program({"chart", scene, "--methods", "rk4", "--runs", "1", "-o", folder.file("c.csv")});
+  EXPECT_EQ(stopped.status, 5);
+  EXPECT_THAT(stopped.err, AllOf(HasSubstr("the run stops: joint 'joint1' passed its effort limit 1"), HasSubstr("take --set duration=0.")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("c.csv")));
+  EXPECT_EQ(run_program({"chart", scene, "--methods", "rk4", "--runs", "1", "--longest", "2ms", "--set", "duration=0.4", "-o", folder.file("d.csv")}).status, 0) << "negative control";
+}
+
 TEST(MethodsCommand, ListsEveryRowOfTheRegistry) {
   const ProgramResult result = run_program({"methods", "--json"});
   ASSERT_EQ(result.status, 0) << result.err;

@@ -121,6 +121,28 @@ TEST(EllipseNumbers, HaveTheSemiAxesOfTheReading) {
   EXPECT_EQ(mass["poses"][1]["singular_directions"].size(), 1u);
 }
 
+// The section by a plane that is tilted against the singular direction of a stretched arm: the energy's is a segment, whose length changes as little as the pose.
+TEST(EllipseNumbers, OfSectionsAreKnownAtAndNearSingularPoses) {
+  const TemporaryFolder folder;
+  const std::string body = R"(<inertial><origin xyz="0.4 0 0"/><mass value="1"/><inertia ixx="0.01" iyy="0.08" izz="0.08" ixy="0" ixz="0" iyz="0"/></inertial>)";
+  const std::string model = folder.write("s.urdf", R"(<robot name="s"><link name="l0"/><link name="l1">)" + body + R"(</link><link name="l2">)" + body + R"(</link><link name="l3">)" + body +
+      R"(</link><link name="tip"/><joint name="j1" type="continuous"><parent link="l0"/><child link="l1"/><axis xyz="0 0 1"/></joint>
+      <joint name="j2" type="continuous"><parent link="l1"/><child link="l2"/><origin xyz="0 0 0.4"/><axis xyz="0 1 0"/></joint>
+      <joint name="j3" type="continuous"><parent link="l2"/><child link="l3"/><origin xyz="1 0 0"/><axis xyz="0 1 0"/></joint>
+      <joint name="t" type="fixed"><parent link="l3"/><child link="tip"/><origin xyz="0.8 0 0" rpy="0.3 0.5 0.7"/></joint></robot>)");
+  const auto axes = [&](const std::string& bend) {
+    const ProgramResult result = run_program({"ellipse", model, "--pose", "0.3,0.4," + bend, "--shape", "section", "--reading", "energy", "-o", folder.file("e.json"), "--force", "--quiet"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(read_whole_file(folder.file("e.json")))["poses"][0]["semi_axes"].get<std::vector<double>>();
+  };
+  const double far = axes("1e-4").back();
+  EXPECT_GT(far, 0.1);
+  for (const char* bend : {"1e-6", "1e-8", "0"}) {
+    EXPECT_NEAR(axes(bend).back() / far, 1, 1e-3) << bend;  // O(bend) and what a mass beyond all leaves
+    EXPECT_LT(axes(bend).front(), 1e-4) << bend;
+  }
+}
+
 TEST(EllipseSweep, GoesThroughTheValuesOfOneCoordinate) {
   const Json report = report_of({"models/rr.urdf", "--pose", "0.3,0", "--sweep", "q2=0:180deg:9"});
   ASSERT_EQ(report["poses"].size(), 9u);

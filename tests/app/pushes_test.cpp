@@ -131,6 +131,8 @@ TEST(PushOfAParameter, IsWhatTheNumberIs) {
   ASSERT_EQ(run_program({"extract", folder.file("s.png"), "-o", folder.file("again.yaml")}).status, 0);
   EXPECT_THAT(read_whole_file(folder.file("again.yaml")), HasSubstr("force: [F, -F / 3]"));
   EXPECT_EQ(run_program({"sweep", named, "--over", "parameters.F=0:30:3", "-o", folder.file("w.csv")}).status, 0);
+  EXPECT_EQ(rows({named, "--set", "parameters={k: 12, m: 18}", "--set", "push.force=[k + m, -10]"}), rows({plain})) << "m is a name here, and no unit";
+  for (const char* bad : {"push.force=['', 4]", "push.force=[5deg, 0]", "push.force=[1 kg, 0]"}) EXPECT_EQ(run_program({"check", named, "--set", bad}).status, 3) << bad;
   const ProgramResult wrong = run_program({"check", named, "--set", "push.force=[G, 0]"});
   EXPECT_EQ(wrong.status, 3);
   EXPECT_THAT(wrong.err, testing::AllOf(HasSubstr("'push.force.1'"), HasSubstr("'G'"), HasSubstr("parameters")));

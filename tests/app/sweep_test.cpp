@@ -100,6 +100,9 @@ TEST(SweepTable, JoinedTellsWhatFailed) {
   const ProgramResult calm = run_program({"sweep", scene, "--over", "torque.1=1,2", "--set", "expect=diverge", "-o", folder.file("d.csv")});
   EXPECT_EQ(calm.status, 5);
   EXPECT_THAT(calm.err, HasSubstr("torque.1=1: was expected to diverge, but finished"));
+  const ProgramResult passing = run_program({"sweep", scene, "--over", "torque.1=21,22", "--set", "expect=diverge", "-o", folder.file("p2.csv")});
+  EXPECT_EQ(passing.status, 5) << "limits are not what it failed for";
+  EXPECT_THAT(passing.err, HasSubstr("was expected to diverge, but finished; limits: "));
   const ProgramResult twins = run_program({"sweep", scene, "--over", "torque.1=1,2", "--set", "events=[{when: q1, name: zero}, {when: \"q1 < -0.9\", name: last_zero}]", "-o", folder.file("t.csv")});
   EXPECT_EQ(twins.status, 3);
   EXPECT_THAT(twins.err, HasSubstr("two columns of the table would be called last_zero [s]"));
