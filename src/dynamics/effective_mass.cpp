@@ -69,8 +69,8 @@ void refine_directions(EffectiveMass& effective, const Eigen::MatrixXd& J, const
   const Eigen::Index rows = J.rows(), known = svd.singularValues().size();
   const double largest = known > 0 ? svd.singularValues()(0) : 0;
   // Rounding of J, which gathers along the chain, is magnified by L^-1.
-  constexpr double kRounding = 16 * 0x1p-52;
-  const double rounding = kRounding * double(J.cols()) * J.norm() / Eigen::MatrixXd(factor.matrixL()).diagonal().minCoeff();
+  const Eigen::MatrixXd inverse = factor.matrixL().solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
+  const double rounding = 0x1p-52 * double(J.cols()) * J.norm() * inverse.norm();
   const double least = std::max(kSingularValue * largest, rounding);
   effective.least = least * least;
   effective.is_infinite.clear();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <set>
 #include <optional>
 
 #include "app/cli/named_pose.hpp"
@@ -396,11 +397,15 @@ Problem stale_files(const std::vector<std::string>& asked, const std::vector<Tod
 void print_commands(const std::vector<Today>& all) {
   std::vector<std::vector<std::string>> commands;
   std::map<std::vector<std::string>, std::string> remarks;
+  std::set<std::vector<std::string>> known;  // by where their files lie, however these are named
   for (const Today& one : all) {
     const std::string remark = one.is_far                ? "# its scene was found in another folder, by the name alone: "
                                : !one.again.knows_set ? "# what --set changed is not known, as no audit lies beside it: "
                                                       : "";
-    if (!one.is_same() && !one.again.command.empty() && remarks.try_emplace(one.again.command, remark).second) commands.push_back(one.again.command);
+    if (!one.is_same() && !one.again.command.empty() && known.insert(placed_words(one.again.command)).second) {
+      remarks.emplace(one.again.command, remark);
+      commands.push_back(one.again.command);
+    }
   }
   put_in_order(commands);
   for (const std::vector<std::string>& command : commands) {

@@ -139,6 +139,13 @@ std::vector<std::string> foreign_beside(const std::vector<std::string>& command)
   return foreign;
 }
 
+std::vector<std::string> placed_words(std::vector<std::string> command) {
+  std::error_code code;
+  for (std::size_t i = 1; i < command.size(); ++i)
+    if (command[i - 1] == "-o" || fs::exists(command[i], code)) command[i] = fs::weakly_canonical(fs::absolute(command[i]), code).string();
+  return command;
+}
+
 void put_in_order(std::vector<std::vector<std::string>>& commands) {
   std::map<std::string, std::size_t> makers;
   for (std::size_t i = 0; i < commands.size(); ++i)

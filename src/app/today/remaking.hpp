@@ -26,6 +26,9 @@ bool has_other_pixels(const std::string& path);
 // Files that such a command would replace, as it overwrites, though they are not ours, or were changed since: what it writes itself, and what lies beside it.
 std::vector<std::string> foreign_beside(const std::vector<std::string>& command);
 
+// The words with their files by where these lie, however they are named: of two commands that are one.
+std::vector<std::string> placed_words(std::vector<std::string> command);
+
 // Those whose files others read come first; else in their order.
 void put_in_order(std::vector<std::vector<std::string>>& commands);
 
