@@ -248,6 +248,23 @@ TEST(DynamicsCommand, HasNoLambdaAtASingularPoseButItsDirection) {
   EXPECT_FALSE(dynamics({"models/rr.urdf", "--q", "0,1"})["Lambda"].is_null());
 }
 
+// A straight chain moves its end along itself by rounding alone, however long it is.
+TEST(DynamicsCommand, HasNoLambdaOfAStraightLongChain) {
+  const TemporaryFolder folder;
+  for (const int n : {3, 20, 100}) {
+    std::string links, masses, q = "0.7", bent = "0.7";
+    for (int i = 0; i < n; ++i) links += i == 0 ? "0.1" : ", 0.1", masses += i == 0 ? "1" : ", 1";
+    for (int i = 1; i < n; ++i) q += ", 0", bent += i == n / 2 ? ", 1e-3" : ", 0";
+    const auto report = [&](const std::string& pose) {
+      const std::string scene = folder.write("s.yaml", "model: {links: [" + links + "], masses: [" + masses + "]}\nstart: {q: [" + pose + "]}\nduration: 0.1\nmethod: rk4\n");
+      return Json::parse(run_program({"dynamics", scene, "--json"}).out);
+    };
+    EXPECT_TRUE(report(q)["Lambda"].is_null()) << n;
+    EXPECT_EQ(report(q)["singular_directions"].size(), 1u) << n;
+    EXPECT_FALSE(report(bent)["Lambda"].is_null()) << n << ": negative control";
+  }
+}
+
 TEST(DynamicsCommand, TakesGravity) {
   const Json json = dynamics({"models/rr.urdf", "--gravity", "0,0,0"});
   EXPECT_EQ(json["tau_g"][0], 0);

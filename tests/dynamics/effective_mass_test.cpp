@@ -114,21 +114,6 @@ TEST(EffectiveMassTest, IsSingularBelowTheStatedFraction) {
   EXPECT_GT(std::abs(rr(1e-14).singular_directions[0](0)), 0.99999);
 }
 
-// A straight chain moves its end along itself by rounding alone, however long it is.
-TEST(EffectiveMassTest, OfAStraightLongChainIsSingular) {
-  for (const int n : {3, 20}) {
-    const Chain chain = planar_serial_chain(n);
-    Workspace ws(chain);
-    std::vector<double> q(std::size_t(n), 0.0);
-    q[0] = 0.7;
-    const EffectiveMass straight = effective_mass_of(chain, ws, q, chain.end_effector, Task::linear);
-    EXPECT_FALSE(straight.Lambda) << n;
-    EXPECT_EQ(straight.singular_directions.size(), 1u) << n;
-    q[std::size_t(n) / 2] = 1e-3;
-    EXPECT_TRUE(effective_mass_of(chain, ws, q, chain.end_effector, Task::linear).Lambda) << n << ": negative control";
-  }
-}
-
 TEST(EffectiveMassTest, IsJMinvJtOfEveryChain) {
   Random random(71);
   std::vector<Chain> chains{rrr_chain(), arm_chain(5)};
