@@ -138,6 +138,24 @@ TEST(PicturesOfToday, AreNotMadeAgainOfAScenesNameInAnotherCourse) {
   EXPECT_THAT(run({"check", "c/out", "--today", "--commands"}).out, testing::StartsWith("chainreel snapshot")) << "negative control";
 }
 
+// A panel that did not become whole has no record, and takes none from the others.
+TEST(TablesOfToday, OfPanelsBesideOneThatFailsAreRecordedAlone) {
+  const TemporaryFolder folder;
+  folder.write("f.yaml", "model: pp.urdf\nduration: 2\nmethod: rk4\nstep: 1ms\ncompare:\n"
+                         "  - {title: fails, torque: [0, \"-1e6 * (1 + t^8 * 1e6) * y_G\"]}\n  - {title: ends}\n");
+  const RunOptions there{.folder = folder.path().string()};
+  const auto run = [&](const Words& words) { return run_program(words, there); };
+  ASSERT_EQ(run({"simulate", "f.yaml", "--panel", "2", "-o", "out/t.1.csv", "--quiet"}).status, 0);
+  const std::string earlier = read_whole_file(folder.file("out/t.1.csv")), record = read_whole_file(folder.file("out/t.1.csv.json"));
+  const ProgramResult result = run({"simulate", "f.yaml", "-o", "out/t.csv", "--json", "--force"});
+  EXPECT_EQ(result.status, 5) << result.err;
+  EXPECT_EQ(Json::parse(result.out).at("panels").size(), 2u);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("out/t.1.partial.csv")));
+  EXPECT_EQ(read_whole_file(folder.file("out/t.1.csv")), earlier);
+  EXPECT_EQ(read_whole_file(folder.file("out/t.1.csv.json")), record) << "it is still that of the earlier run";
+  EXPECT_THAT(run({"check", "out/t.2.csv", "--today"}).out, HasSubstr("out/t.2.csv is what"));
+}
+
 // Equations for a handout are as stale as a film.
 TEST(EquationsOfToday, HaveARecordAndAreMadeAgain) {
   const TemporaryFolder folder;

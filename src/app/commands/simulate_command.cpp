@@ -86,15 +86,16 @@ std::vector<NamedPeak> peaks_of_run(const Simulation& simulation, const PeaksAsk
   return named(names, found.peaks);
 }
 
-// A panel's run as files. What it ended with where it should not have is put into `trouble`; all that is known is told before it is thrown.
-Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, TableFiles& files,
+// A panel's run as files, and where it is whole the record of them. What it ended with where it should not have is put into `trouble`; all that is known is told before it is thrown.
+Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, TableFiles& files, TableRecords& records,
                     const Wanted& wanted, const SimulateOptions& options, bool alone, std::optional<Error>& trouble) {
   say_choice(prepared, options.common.quiet);
   Trajectory trajectory = run_scene(film, prepared, options);
   throw_if_interrupted();
   const DataTable table =
       motion_table(prepared.simulation, trajectory, wanted.columns.empty() ? usual_columns(prepared.simulation.chain) : wanted.columns);
-  if (is_complete(trajectory.status) || prepared.scene.expect == Outcome::diverge)
+  const bool is_whole = is_complete(trajectory.status) || prepared.scene.expect == Outcome::diverge;
+  if (is_whole)
     files.write(table);
   else
     files.write_partial(table);
@@ -115,10 +116,12 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
   report["panels"] = Json::array();
   report["rows"] = trajectory.size();
   report["peaks"] = to_json(peaks);
-  report["is_whole"] = is_complete(trajectory.status) || prepared.scene.expect == Outcome::diverge;
   report.update(files_json(files.paths()));
-  if (options.common.json) return report;
-  files.tell(options.common, table.rows, {}, peaks.empty() ? "" : words_of(peaks));
+  if (!options.common.json) files.tell(options.common, table.rows, {}, peaks.empty() ? "" : words_of(peaks));
+  if (is_whole)
+    records.write();
+  else
+    records.drop();
   return report;
 }
 
@@ -180,9 +183,7 @@ void run_simulate(const SimulateOptions& options) {
     for (const std::string& output : outputs) paths.push_back(panel_table_path(output, i, alone));
     TableFiles files(paths, options.common);
     records.open(paths, outputs);
-    reports.push_back(simulate_panel(film, film.panels[i], files, wanted, options, alone, trouble));
-    if (reports.back()["is_whole"] == Json(true)) records.write();
-    reports.back().erase("is_whole");
+    reports.push_back(simulate_panel(film, film.panels[i], files, records, wanted, options, alone, trouble));
   }
   if (options.common.json) print_reports(film.scene, reports, alone);
   if (trouble) throw Error(*trouble);

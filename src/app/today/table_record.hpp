@@ -24,6 +24,8 @@ class TableRecords {
   void remember_named_poses(const Json& figure);
   // Of those that were opened, when the tables are there. None is left of another command.
   void write();
+  // Of none that were opened: they did not become whole.
+  void drop() { tables_.clear(); }
 
  private:
   struct One {
