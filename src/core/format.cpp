@@ -51,6 +51,12 @@ std::string format_significant(double value, int digits) {
   return text.find('e') != std::string::npos && std::abs(value) >= 1 && std::abs(value) < kWritten ? format_fixed(*parse_number(text), 0) : text;
 }
 
+double rounded_down(double value, int digits) {
+  if (!(value > 0)) return 0;
+  const double last = std::pow(10, std::floor(std::log10(value)) - digits + 1);
+  return std::floor(value / last) * last;
+}
+
 std::string format_digits(double value, int digits) {
   const std::string usual = format_significant(value, digits);
   const std::optional<double> rounded = parse_number(usual);

@@ -14,6 +14,8 @@ std::string format_fixed(double value, int decimals);  // never "-0.00"
 std::string format_power(double value);               // "3\u00D710\u207B\u00B9\u2074": of what is above zero, one digit
 std::string format_significant(double value, int digits);  // below 1e5 without an exponent: 430 of 432.1, two digits
 
+double rounded_down(double value, int digits);  // to so many, of what is not below zero
+
 // So many digits also where the last ones are zeros, as numbers of one table have them: 4.10 of 4.1, three digits.
 std::string format_digits(double value, int digits);
 

@@ -45,6 +45,16 @@ Eigen::MatrixXd inverse_of_effective_mass(const Chain& chain, Workspace& ws) {
   return 0.5 * (Lambda_inv + Lambda_inv.transpose());
 }
 
+// Which directions are infinitely heavy: no more mobile than `least`.
+void part_directions(EffectiveMass& effective) {
+  effective.is_infinite.clear();
+  effective.singular_directions.clear();
+  for (Eigen::Index k = 0; k < effective.mobility.size(); ++k) {
+    effective.is_infinite.push_back(!(effective.mobility(k) > effective.least));
+    if (effective.is_infinite.back()) effective.singular_directions.emplace_back(effective.directions.col(k));
+  }
+}
+
 }  // namespace
 
 void find_directions(EffectiveMass& effective, double free) {
@@ -52,10 +62,7 @@ void find_directions(EffectiveMass& effective, double free) {
   effective.mobility = eigen.values.cwiseMax(0.0);  // round-off may leave a zero below zero
   effective.directions = std::move(eigen.vectors);
   effective.least = free > 0 ? kForbiddenFraction * free : kSingularFraction * effective.mobility.maxCoeff();
-  for (Eigen::Index k = 0; k < effective.mobility.size(); ++k) {
-    effective.is_infinite.push_back(!(effective.mobility(k) > effective.least));
-    if (effective.is_infinite.back()) effective.singular_directions.emplace_back(effective.directions.col(k));
-  }
+  part_directions(effective);
 }
 
 namespace {
@@ -73,16 +80,13 @@ void refine_directions(EffectiveMass& effective, const Eigen::MatrixXd& J, const
   const double rounding = 0x1p-52 * double(J.cols()) * J.norm() * inverse.norm();
   const double least = std::max(kSingularValue * largest, rounding);
   effective.least = least * least;
-  effective.is_infinite.clear();
-  effective.singular_directions.clear();
   for (Eigen::Index k = 0; k < rows; ++k) {
     const Eigen::Index from = rows - 1 - k;  // rising
     const double sigma = from < known ? svd.singularValues()(from) : 0;
     effective.mobility(k) = sigma * sigma;
     effective.directions.col(k) = svd.matrixV().col(from);
-    effective.is_infinite.push_back(!(sigma > least));
-    if (effective.is_infinite.back()) effective.singular_directions.emplace_back(effective.directions.col(k));
   }
+  part_directions(effective);
 }
 
 }  // namespace

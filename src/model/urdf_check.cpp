@@ -334,15 +334,14 @@ class Checker {
     joint.limit.given = limit != nullptr;
     if (limit != nullptr) {
       joint.limit.line = limit->GetLineNum();
-      const auto has = [&](const char* attribute) {
-        return numbers_.one(*limit, attribute, owner, Need::optional, Range::any).has_value();
-      };
-      joint.limit.has_lower = has("lower");
-      joint.limit.has_upper = has("upper");
-      joint.limit.has_effort = has("effort");
-      joint.limit.has_velocity = has("velocity");
-      for (const char* attribute : {"effort", "velocity"})
-        if (const auto value = numbers_.one(*limit, attribute, owner, Need::optional, Range::any); value && *value < 0)
+      const auto number = [&](const char* attribute) { return numbers_.one(*limit, attribute, owner, Need::optional, Range::any); };
+      joint.limit.has_lower = number("lower").has_value();
+      joint.limit.has_upper = number("upper").has_value();
+      const auto effort = number("effort"), velocity = number("velocity");
+      joint.limit.has_effort = effort.has_value();
+      joint.limit.has_velocity = velocity.has_value();
+      for (const auto& [attribute, value] : {std::pair("effort", effort), std::pair("velocity", velocity)})
+        if (value && *value < 0)
           problems_.add(limit->GetLineNum(), owner + " has a limit of " + attribute + " below zero: limits are sizes, of either direction; leave the attribute out where there is none");
     } else if (joint.type == UrdfJointType::revolute || joint.type == UrdfJointType::prismatic) {
       limit = element.InsertNewChildElement("limit");

@@ -184,7 +184,8 @@ std::optional<Doubt> doubt_of_energy(const Simulation& simulation, const Traject
   const auto lost = std::ranges::find_if(trajectory.work, [](double work) { return !std::isfinite(work); });
   if (lost != trajectory.work.end()) {
     // The rates may be finite again behind a pole that a step went over.
-    const double t = trajectory.t[std::size_t(lost - trajectory.work.begin())], before = lost == trajectory.work.begin() ? 0 : trajectory.t[std::size_t(lost - trajectory.work.begin()) - 1];
+    const std::size_t k = std::size_t(lost - trajectory.work.begin());
+    const double t = trajectory.t[k], before = k == 0 ? 0 : trajectory.t[k - 1];
     return Doubt{"energy", std::numeric_limits<double>::infinity(),
                  "the work of the torques is no number from t = " + format_significant(t, 4) + " s on, as behind a pole of a torque, where no motion goes on",
                  before > 0 ? "--set duration=" + format_significant(round_down(before), 3) + ", which ends before it" : "a torque that stays finite"};

@@ -201,8 +201,7 @@ std::optional<Doubt> doubt_of_rank(const Simulation& simulation, const Trajector
   std::string when;
   for (std::size_t k = 0; k < std::min(losses.size(), kTold); ++k) when += (k == 0 ? "" : k + 1 == losses.size() ? " and " : ", ") + format_significant(losses[k].t, 4);
   if (losses.size() > kTold) when += " and " + std::to_string(losses.size() - kTold) + " times more until " + format_significant(losses.back().t, 4);
-  const double before = losses.front().t * (1 - kSpared), digit = before > 0 ? std::pow(10, std::floor(std::log10(before)) - 2) : 1;
-  const double end = std::floor(before / digit) * digit;  // three digits
+  const double end = rounded_down(losses.front().t * (1 - kSpared), 3);
   return Doubt{"rank", losses.front().part,
                "at t = " + when + " s constraints that are independent elsewhere depend on each other, as of links in one line: which way "
                "the motion goes on there, and lambda, the equations do not say",

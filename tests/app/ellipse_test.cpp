@@ -189,7 +189,7 @@ TEST(EllipseFilm, NumbersStandOnce) {
     ASSERT_EQ(run_program({"snapshot", "assets/scenes/rr_ellipse.yaml", "--at", at, "--width", "640", "--height", "360", "--quiet", "--force", "-o", file}).status, 0);
     const std::string svg = text_of(file);
     int numbers = 0;
-    for (std::size_t at = svg.find(" kg</tspan>"); at != std::string::npos; at = svg.find(" kg</tspan>", at + 1)) ++numbers;
+    for (std::size_t place = svg.find(" kg</tspan>"); place != std::string::npos; place = svg.find(" kg</tspan>", place + 1)) ++numbers;
     EXPECT_EQ(numbers, 2 * 2 + 1) << at << ": of each axis one with its halo, and the scale's";
     EXPECT_THAT(svg, HasSubstr("width=\"640\" height=\"360\" viewBox=\"0 0 960 540\""));
   }

@@ -52,6 +52,13 @@ TEST(Format, SignificantDropsTrailingZeros) {
   EXPECT_EQ(format_significant(0.00000123, 2), "1.2e-06");
 }
 
+TEST(Format, RoundedDownNeverLiesAbove) {
+  EXPECT_EQ(rounded_down(0, 3), 0);
+  EXPECT_DOUBLE_EQ(rounded_down(1.2399, 3), 1.23);
+  EXPECT_DOUBLE_EQ(rounded_down(99.99, 2), 99);
+  EXPECT_DOUBLE_EQ(rounded_down(0.0045678, 1), 0.004);
+}
+
 TEST(ParseNumber, TakesOneFiniteNumberAndNothingElse) {
   EXPECT_EQ(parse_number("-1.5e2"), -150);
   EXPECT_EQ(parse_number("+3"), 3);

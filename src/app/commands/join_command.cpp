@@ -170,9 +170,9 @@ struct JoinedFiles {
   std::unique_ptr<OutputFile> captions;
 };
 
-Json joined_json(const JoinOptions& options, Json frames) {
+Json joined_json(const JoinOptions& options, Json frames, Json failed) {
   Json json = files_json({options.output});
-  json.update({{"parts", options.parts.size()}, {"frames", std::move(frames)}, {"failed", nullptr}});
+  json.update({{"parts", options.parts.size()}, {"frames", std::move(frames)}, {"failed", std::move(failed)}});
   return json;
 }
 
@@ -180,11 +180,7 @@ void run_join(const JoinOptions& options) {
   if (lower_case_ending(options.output) == ".csv") {
     const SweepOutcome outcome = join_tables(options.parts, options.output, options.common.force);
     tell_result(options.common,
-                [&] {
-                  Json json = joined_json(options, nullptr);
-                  json["failed"] = outcome.failed;
-                  return json;
-                },
+                [&] { return joined_json(options, nullptr, outcome.failed); },
                 [&] { std::printf("%s: the table of %zu parts\n", options.output.c_str(), options.parts.size()); });
     return require_none_failed(outcome, options.output);
   }
@@ -234,7 +230,7 @@ void run_join(const JoinOptions& options) {
   write_whole(files.audit, audit.dump(2) + "\n");
   if (shared) write_whole(*shared, without_this.dump(2) + "\n");
   tell_result(options.common,
-              [&] { return joined_json(options, facts.frames); },
+              [&] { return joined_json(options, facts.frames, nullptr); },
               [&] { std::printf("%s: %d frames of %zu parts\n", options.output.c_str(), facts.frames, parts.size()); });
 }
 

@@ -142,10 +142,10 @@ std::optional<Doubt> doubt_of_choice(const Choice& choice, const Accuracy& accur
                  std::isfinite(choice.best.error) ? "--set accuracy='" + format_significant(2 * choice.best.error, 1) + " " + to_string(accuracy.unit) + "', or a method by name"
                                                   : "a method by name"};
   if (!choice.holds_until || *choice.holds_until >= end) return {};
-  const double until = *choice.holds_until, digit = until > 0 ? std::pow(10, std::floor(std::log10(until)) - 2) : 1;
+  const double until = *choice.holds_until;
   return Doubt{"accuracy", until / end,
                "method: auto promises " + to_string(accuracy) + " until t = " + format_significant(until, 4) + " s alone, as `chainreel check` tells in full",
-               until > 0 ? "--set duration=" + format_significant(std::floor(until / digit) * digit, 3) : "a method by name"};
+               until > 0 ? "--set duration=" + format_significant(rounded_down(until, 3), 3) : "a method by name"};
 }
 
 namespace {

@@ -291,7 +291,7 @@ class Finder {
   LongSeries<DoubleDouble> series_of(int which, long most) const {
     LongSeries<DoubleDouble> series(simulation_.chain, *simulation_.torque->affine(), kSeriesOrders[which], kSeriesTolerances[which]);
     series.start(0, {simulation_.q0.begin(), simulation_.q0.end()}, {simulation_.qd0.begin(), simulation_.qd0.end()});
-    series.set_most_expansions(most);
+    series.set_limits({}, most);
     return series;
   }
 

@@ -100,8 +100,7 @@ class LongSeries {
   LongSeries(const Chain& chain, const AffineTorque& torque, int order, double tolerance);
 
   void start(T t, std::vector<T> q, std::vector<T> v);
-  // Ends run_to behind so many expansions of all its calls.
-  void set_most_expansions(long most) { most_ = most; }
+  // Ends run_to where it says so, or behind so many expansions of all its calls.
   void set_limits(const StopRequest& stop, long most) { stop_ = stop, most_ = most; }
   long expansions() const { return expansions_; }
   // Moves to `end`; false where no step is small enough, or the expansions are spent.

@@ -96,10 +96,6 @@ std::vector<MethodSetting> settings_of(const Simulation& simulation, const Metho
   return settings;
 }
 
-}  // namespace
-
-namespace {
-
 // No double comes nearer to what it stands for, however near a run may come by luck.
 double rounding_of(ConstVec numbers) {
   double largest = 0;

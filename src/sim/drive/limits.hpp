@@ -1,8 +1,8 @@
 // The limits of the model's joints during a run: what was passed first, where and when.
 #pragma once
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
