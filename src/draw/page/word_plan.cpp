@@ -92,32 +92,31 @@ struct ShapeObstacles {
   }
 };
 
-bool touches(const Rect& box, const Obstacle& obstacle) {
-  const Rect wide = widened(box, obstacle.radius + kWordAir);
-  const Point a = obstacle.a, b = obstacle.b;
-  if (std::max(a.x, b.x) < wide.x0 || std::min(a.x, b.x) > wide.x1 || std::max(a.y, b.y) < wide.y0 ||
-      std::min(a.y, b.y) > wide.y1)
-    return false;
-  Point from = a, to = b;
-  return cut_segment(wide, from, to);
+// An obstacle in its outer rectangle.
+struct Blocked {
+  Rect room;
+  Obstacle by;
+};
+
+Rect room_of(const Obstacle& one) {
+  return {std::min(one.a.x, one.b.x) - one.radius, std::min(one.a.y, one.b.y) - one.radius,
+          std::max(one.a.x, one.b.x) + one.radius, std::max(one.a.y, one.b.y) + one.radius};
+}
+
+bool reaches(const Rect& one, const Rect& room) {
+  return one.x1 >= room.x0 && one.x0 <= room.x1 && one.y1 >= room.y0 && one.y0 <= room.y1;
 }
 
 bool moves_on(const Rect& before, const Rect& now) {
   return norm(center_of(now) - center_of(before)) <= kWordStep;
 }
 
-// Whether its outer rectangle does.
-bool reaches(const Obstacle& one, const Rect& room) {
-  return std::max(one.a.x, one.b.x) + one.radius >= room.x0 && std::min(one.a.x, one.b.x) - one.radius <= room.x1 &&
-         std::max(one.a.y, one.b.y) + one.radius >= room.y0 && std::min(one.a.y, one.b.y) - one.radius <= room.y1;
-}
-
 // What a line from a word crosses, or runs along.
-double cost_of_line(Point from, Point to, const std::vector<Obstacle>& obstacles) {
+double cost_of_line(Point from, Point to, const std::vector<Blocked>& near) {
   int crossed = 0;
   const Rect room{std::min(from.x, to.x), std::min(from.y, to.y), std::max(from.x, to.x), std::max(from.y, to.y)};
-  for (const Obstacle& obstacle : obstacles) {
-    if (!reaches(obstacle, room)) continue;
+  for (const auto& [outside, obstacle] : near) {
+    if (!reaches(outside, room)) continue;
     const Point line = to - from, piece = obstacle.b - obstacle.a;
     const double s = cross(line, obstacle.a - from), t = cross(line, obstacle.b - from);
     const double u = cross(piece, from - obstacle.a), v = cross(piece, to - obstacle.a);
@@ -128,28 +127,42 @@ double cost_of_line(Point from, Point to, const std::vector<Obstacle>& obstacles
 }
 
 // On its way, but not at its end.
-double cost_of_leader(const Leader& leader, const Rect& box, const std::vector<Obstacle>& obstacles) {
+double cost_of_leader(const Leader& leader, const Rect& box, const std::vector<Blocked>& near) {
   const Point from{std::clamp(leader.to.x, box.x0, box.x1), std::clamp(leader.to.y, box.y0, box.y1)};
   const double length = norm(leader.to - from);
   if (!(length > kEndOfLeader)) return 0;
-  return cost_of_line(from, leader.to - (kEndOfLeader / length) * (leader.to - from), obstacles);
+  return cost_of_line(from, leader.to - (kEndOfLeader / length) * (leader.to - from), near);
 }
 
-double cost_of_tie(const Tie& tie, const Rect& box, const std::vector<Obstacle>& obstacles) {
+double cost_of_tie(const Tie& tie, const Rect& box, const std::vector<Blocked>& near) {
   const std::optional<TieLine> line = line_of(tie, box);
-  return line ? cost_of_line(line->from, line->to, obstacles) : 0;
+  return line ? cost_of_line(line->from, line->to, near) : 0;
+}
+
+// What lies there; of words that insist nothing takes it.
+WordPlan::Ground ground_of(const Rect& box, const std::vector<Blocked>& near, bool insists) {
+  WordPlan::Ground ground = WordPlan::Ground::free;
+  const Rect room = widened(box, kWordAir);
+  for (const auto& [outside, obstacle] : near) {
+    if (!reaches(outside, room)) continue;
+    Point from = obstacle.a, to = obstacle.b;
+    if (!cut_segment(widened(box, obstacle.radius + kWordAir), from, to)) continue;
+    if (insists) return WordPlan::Ground::poor;
+    if (!obstacle.may_yield) return WordPlan::Ground::taken;
+    ground = WordPlan::Ground::poor;
+  }
+  return ground;
 }
 
 // Those that any place of a word, or its line from there, may meet.
-std::vector<Obstacle> obstacles_near(const MarkWord& word, const Rect& area, const std::vector<Obstacle>& obstacles) {
+void find_near(const MarkWord& word, const Rect& area, const std::vector<Blocked>& all, std::vector<Blocked>& near) {
   Rect room = moved_into(area, word.places.front());
   for (const Rect& place : word.places) room = around(room, moved_into(area, place));
   for (const Point to : {word.leader ? word.leader->to : center_of(room), word.tie ? word.tie->to : center_of(room)})
     room = around(room, {to.x, to.y, to.x, to.y});
-  std::vector<Obstacle> near;
   room = widened(room, kWordAir);
-  std::copy_if(obstacles.begin(), obstacles.end(), std::back_inserter(near), [&](const Obstacle& one) { return reaches(one, room); });
-  return near;
+  near.clear();
+  std::copy_if(all.begin(), all.end(), std::back_inserter(near), [&](const Blocked& one) { return reaches(one.room, room); });
 }
 
 constexpr int kNowhere = -1;
@@ -180,24 +193,16 @@ WordPlan::Track& WordPlan::track_of(const MarkWord& word, int frame) {
   return tracks_[nearest];
 }
 
-WordPlan::Ground WordPlan::ground_of(const Rect& box, const std::vector<Obstacle>& near, bool insists) {
-  Ground ground = Ground::free;
-  for (const Obstacle& one : near) {
-    if (!touches(box, one)) continue;
-    if (insists) return Ground::poor;
-    if (!one.may_yield) return Ground::taken;
-    ground = Ground::poor;
-  }
-  return ground;
-}
-
 void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacle>& obstacles) {
   const int frame = int(counts_.size());
   counts_.push_back(int(words.size()));
+  std::vector<Blocked> all, near;
+  all.reserve(obstacles.size());
+  for (const Obstacle& one : obstacles) all.push_back({room_of(one), one});
   const std::size_t most = words.size() > kCrowdOfWords ? 1 : std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < words.size(); ++i) {
     Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}};
-    const std::vector<Obstacle> near = obstacles_near(words[i], area_, obstacles);
+    find_near(words[i], area_, all, near);
     for (const Rect& wish : words[i].places) {
       if (now.places.size() == most) break;
       const Rect box = moved_into(area_, wish);

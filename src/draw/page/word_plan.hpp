@@ -33,6 +33,8 @@ inline constexpr double kWordAir = 0.004;
 
 class WordPlan {
  public:
+  enum class Ground : std::uint8_t { free, poor, taken };  // what lies at a place
+
   WordPlan(const Rect& area, double fps, double between = kBetweenWords) : area_(area), fps_(fps), between_(between) {}
 
   // The next frame.
@@ -41,11 +43,10 @@ class WordPlan {
   std::vector<std::vector<StandingWord>> standing() const;
 
  private:
-  enum class Ground : std::uint8_t { free, poor, taken };
   struct Moment {
     int frame = 0, index = 0;      // of the word among those of the frame
     std::vector<Rect> places;      // moved into the area
-    std::vector<Ground> grounds;  // what lies there
+    std::vector<Ground> grounds;
     bool insists = false;         // rather on anything than nowhere
     std::vector<double> leaders;  // of words with a line: what that from each place costs
   };
@@ -53,8 +54,6 @@ class WordPlan {
   using Track = std::vector<Moment>;
 
   Track& track_of(const MarkWord& word, int frame);
-  // What lies there; of words that insist nothing takes it.
-  static Ground ground_of(const Rect& box, const std::vector<Obstacle>& near, bool insists);
 
   Rect area_;
   double fps_, between_;
