@@ -1,11 +1,10 @@
 #include "render/solid_image.hpp"
 
-#include <cairo.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "render/cairo_functions.hpp"
 
 namespace chainreel {
 namespace {
@@ -62,10 +61,10 @@ std::optional<SolidImage> SolidImages::draw(const Solids& solids) {
 }
 
 cairo_surface_t* image_surface(const Image& image) {
-  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height);
-  if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) return surface;
-  unsigned char* pixels = cairo_image_surface_get_data(surface);
-  const auto stride = std::size_t(cairo_image_surface_get_stride(surface));
+  cairo_surface_t* surface = libcairo().cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height);
+  if (libcairo().cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) return surface;
+  unsigned char* pixels = libcairo().cairo_image_surface_get_data(surface);
+  const auto stride = std::size_t(libcairo().cairo_image_surface_get_stride(surface));
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const Pixel p = image.at(x, y);
@@ -74,15 +73,15 @@ cairo_surface_t* image_surface(const Image& image) {
       std::copy_n(reinterpret_cast<const unsigned char*>(&argb), 4,
                   pixels + std::size_t(y) * stride + 4 * std::size_t(x));
     }
-  cairo_surface_mark_dirty(surface);
+  libcairo().cairo_surface_mark_dirty(surface);
   return surface;
 }
 
 std::string png_text(const Image& image) {
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(image_surface(image),
-                                                                                   &cairo_surface_destroy);
+                                                                                   libcairo().cairo_surface_destroy);
   std::string bytes;
-  const cairo_status_t status = cairo_surface_write_to_png_stream(
+  const cairo_status_t status = libcairo().cairo_surface_write_to_png_stream(
       surface.get(),
       [](void* to, const unsigned char* data, unsigned length) {
         static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);
@@ -91,7 +90,7 @@ std::string png_text(const Image& image) {
       &bytes);
   if (status != CAIRO_STATUS_SUCCESS)
     throw Error(ExitCode::no_renderer,
-                std::string("Cairo failed while writing bodies: ") + cairo_status_to_string(status));
+                std::string("Cairo failed while writing bodies: ") + libcairo().cairo_status_to_string(status));
   return bytes;
 }
 

@@ -1,6 +1,5 @@
 #include "render/svg_image.hpp"
 
-#include <cairo.h>
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "render/cairo_functions.hpp"
 
 namespace chainreel {
 namespace {
@@ -93,16 +93,16 @@ Image svg_image(const std::string& bytes, const std::string& path, int height) {
   const int width = std::max(1, int(std::lround(height * aspect)));
 
   const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
-      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height), cairo_surface_destroy);
-  const std::unique_ptr<cairo_t, void (*)(cairo_t*)> cairo(cairo_create(surface.get()), cairo_destroy);
+      libcairo().cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height), libcairo().cairo_surface_destroy);
+  const std::unique_ptr<cairo_t, void (*)(cairo_t*)> cairo(libcairo().cairo_create(surface.get()), libcairo().cairo_destroy);
   const RsvgRectangle area{0, 0, double(width), double(height)};
   if (rsvg.rsvg_handle_render_document(handle.get(), cairo.get(), &area, &error) == 0) fail(path, error);
-  if (cairo_status(cairo.get()) != CAIRO_STATUS_SUCCESS) throw Error(ExitCode::limit, "no memory to draw it", {path});
-  cairo_surface_flush(surface.get());
+  if (libcairo().cairo_status(cairo.get()) != CAIRO_STATUS_SUCCESS) throw Error(ExitCode::limit, "no memory to draw it", {path});
+  libcairo().cairo_surface_flush(surface.get());
 
   Image image(width, height);
-  const unsigned char* pixels = cairo_image_surface_get_data(surface.get());
-  const auto stride = std::size_t(cairo_image_surface_get_stride(surface.get()));
+  const unsigned char* pixels = libcairo().cairo_image_surface_get_data(surface.get());
+  const auto stride = std::size_t(libcairo().cairo_image_surface_get_stride(surface.get()));
   for (std::size_t y = 0; y < std::size_t(height); ++y)
     std::copy_n(pixels + y * stride, 4 * std::size_t(width), &image.bgra[4 * y * std::size_t(width)]);
   for (std::size_t i = 0; i < image.bgra.size(); i += 4) divide_by_alpha(&image.bgra[i]);

@@ -1,6 +1,3 @@
-#include <cairo-ft.h>
-#include <cairo-pdf.h>
-#include <cairo.h>
 #include <ft2build.h>
 
 #include "render/vector_shapes.hpp"
@@ -16,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "picture/text.hpp"
+#include "render/cairo_functions.hpp"
 #include "render/solid_image.hpp"
 
 namespace chainreel {
@@ -26,7 +24,7 @@ constexpr double kFlattestAxis = 1e-6;  // H: flatter ellipses have no inverse t
 void check(cairo_status_t status, const char* doing) {
   if (status == CAIRO_STATUS_SUCCESS) return;
   throw Error(status == CAIRO_STATUS_NO_MEMORY ? ExitCode::limit : ExitCode::no_renderer,
-              std::string(doing) + ": " + cairo_status_to_string(status));
+              std::string(doing) + ": " + libcairo().cairo_status_to_string(status));
 }
 
 // Faces by file as everywhere. Cairo keeps a face longer than its users, so what it stands on goes with it.
@@ -37,7 +35,7 @@ class CairoFaces {
   CairoFaces& operator=(const CairoFaces&) = delete;
   ~CairoFaces() {
     for (const auto& [face, opened] : faces_)
-      if (opened != nullptr) cairo_font_face_destroy(opened);
+      if (opened != nullptr) libcairo().cairo_font_face_destroy(opened);
   }
 
   cairo_font_face_t* get(Face face) {
@@ -60,8 +58,8 @@ class CairoFaces {
         FT_New_Face(opened->library, file.c_str(), index, &opened->face) != 0)
       throw Error(ExitCode::no_renderer, "font file " + file + " cannot be read");
     cairo_font_face_t* face =
-        cairo_ft_font_face_create_for_ft_face(opened->face, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP);
-    const cairo_status_t status = cairo_font_face_set_user_data(
+        libcairo().cairo_ft_font_face_create_for_ft_face(opened->face, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP);
+    const cairo_status_t status = libcairo().cairo_font_face_set_user_data(
         face, &key, opened.get(), [](void* data) { delete static_cast<Opened*>(data); });
     check(status, "opening a font");
     opened.release();
@@ -75,13 +73,13 @@ class CairoFaces {
 class Painter {
  public:
   Painter(cairo_t* cairo, const Fonts& fonts, double height) : cr_(cairo), fonts_(fonts), scale_(height), faces_(fonts) {
-    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
-    cairo_font_options_t* options = cairo_font_options_create();
-    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
-    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
-    cairo_set_font_options(cr_, options);
-    cairo_font_options_destroy(options);
+    libcairo().cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+    cairo_font_options_t* options = libcairo().cairo_font_options_create();
+    libcairo().cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    libcairo().cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    libcairo().cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    libcairo().cairo_set_font_options(cr_, options);
+    libcairo().cairo_font_options_destroy(options);
   }
 
   void paint(const Picture& picture) {
@@ -89,78 +87,78 @@ class Painter {
     fill_page(picture.background);
     for (const Item& item : picture.items) {
       if (!is_finite(item.shape)) continue;
-      cairo_save(cr_);
+      libcairo().cairo_save(cr_);
       if (item.clip >= 0) clip(picture.clips.at(std::size_t(item.clip)));
       std::visit([this](const auto& shape) { add(shape); }, item.shape);
-      cairo_restore(cr_);
+      libcairo().cairo_restore(cr_);
     }
-    check(cairo_status(cr_), "drawing a page");
+    check(libcairo().cairo_status(cr_), "drawing a page");
   }
 
  private:
   double x(double page) const { return scale_ * page; }
   double y(double page) const { return scale_ * (1 - page); }
-  void move_to(Point p) { cairo_move_to(cr_, x(p.x), y(p.y)); }
-  void line_to(Point p) { cairo_line_to(cr_, x(p.x), y(p.y)); }
+  void move_to(Point p) { libcairo().cairo_move_to(cr_, x(p.x), y(p.y)); }
+  void line_to(Point p) { libcairo().cairo_line_to(cr_, x(p.x), y(p.y)); }
 
   void set_color(const Color& c, double opacity = 1) {
-    cairo_set_source_rgba(cr_, c.r / 255.0, c.g / 255.0, c.b / 255.0, c.a * opacity);
+    libcairo().cairo_set_source_rgba(cr_, c.r / 255.0, c.g / 255.0, c.b / 255.0, c.a * opacity);
   }
 
   void fill_page(const Color& background) {
     if (!(background.a > 0)) return;
     set_color(background);
-    cairo_paint(cr_);
+    libcairo().cairo_paint(cr_);
   }
 
   void clip(const Rect& r) {
-    cairo_rectangle(cr_, x(r.x0), y(r.y1), scale_ * r.width(), scale_ * r.height());
-    cairo_clip(cr_);
+    libcairo().cairo_rectangle(cr_, x(r.x0), y(r.y1), scale_ * r.width(), scale_ * r.height());
+    libcairo().cairo_clip(cr_);
   }
 
   // The current path.
   void paint_path(const Paint& paint) {
     if (paint.fill.a > 0) {
       set_color(paint.fill);
-      cairo_fill_preserve(cr_);
+      libcairo().cairo_fill_preserve(cr_);
     }
     if (paint.stroke.a > 0 && paint.stroke_width > 0) {
       set_color(paint.stroke);
-      cairo_set_line_width(cr_, scale_ * paint.stroke_width);
-      cairo_stroke_preserve(cr_);
+      libcairo().cairo_set_line_width(cr_, scale_ * paint.stroke_width);
+      libcairo().cairo_stroke_preserve(cr_);
     }
-    cairo_new_path(cr_);
+    libcairo().cairo_new_path(cr_);
   }
 
   // The current path, fading.
   void paint_path(const Paint& paint, const Fade& fade) {
     if (!fade.any()) return paint_path(paint);
-    cairo_push_group(cr_);
+    libcairo().cairo_push_group(cr_);
     paint_path(paint);
-    cairo_pattern_t* shape = cairo_pop_group(cr_);
-    cairo_push_group_with_content(cr_, CAIRO_CONTENT_ALPHA);
+    cairo_pattern_t* shape = libcairo().cairo_pop_group(cr_);
+    libcairo().cairo_push_group_with_content(cr_, CAIRO_CONTENT_ALPHA);
     double below = 0;
     for (const auto& [part, opacity] : fade_levels(fade)) {
-      cairo_rectangle(cr_, x(part.x0), y(part.y1), scale_ * part.width(), scale_ * part.height());
-      cairo_set_source_rgba(cr_, 0, 0, 0, (opacity - below) / (1 - below));  // over what is there they make the whole
-      cairo_fill(cr_);
+      libcairo().cairo_rectangle(cr_, x(part.x0), y(part.y1), scale_ * part.width(), scale_ * part.height());
+      libcairo().cairo_set_source_rgba(cr_, 0, 0, 0, (opacity - below) / (1 - below));  // over what is there they make the whole
+      libcairo().cairo_fill(cr_);
       below = opacity;
     }
-    cairo_pattern_t* mask = cairo_pop_group(cr_);
-    cairo_set_source(cr_, shape);
-    cairo_mask(cr_, mask);
-    cairo_pattern_destroy(mask);
-    cairo_pattern_destroy(shape);
-    cairo_new_path(cr_);
+    cairo_pattern_t* mask = libcairo().cairo_pop_group(cr_);
+    libcairo().cairo_set_source(cr_, shape);
+    libcairo().cairo_mask(cr_, mask);
+    libcairo().cairo_pattern_destroy(mask);
+    libcairo().cairo_pattern_destroy(shape);
+    libcairo().cairo_new_path(cr_);
   }
 
   void capsule_path(const Capsule& c) {
     const double dx = x(c.b.x) - x(c.a.x), dy = y(c.b.y) - y(c.a.y), r = scale_ * c.radius;
     const double angle = std::atan2(dy, dx), quarter = std::numbers::pi / 2;
-    cairo_new_path(cr_);
-    cairo_arc(cr_, x(c.b.x), y(c.b.y), r, angle - quarter, angle + quarter);
-    cairo_arc(cr_, x(c.a.x), y(c.a.y), r, angle + quarter, angle + 3 * quarter);
-    cairo_close_path(cr_);
+    libcairo().cairo_new_path(cr_);
+    libcairo().cairo_arc(cr_, x(c.b.x), y(c.b.y), r, angle - quarter, angle + quarter);
+    libcairo().cairo_arc(cr_, x(c.a.x), y(c.a.y), r, angle + quarter, angle + 3 * quarter);
+    libcairo().cairo_close_path(cr_);
   }
 
   void add(const Capsule& c) {
@@ -170,15 +168,15 @@ class Painter {
       paint_path(c.paint);
       return;
     }
-    cairo_push_group(cr_);
+    libcairo().cairo_push_group(cr_);
     capsule_path(c);
     paint_path(c.paint);
-    cairo_pop_group_to_source(cr_);
-    cairo_pattern_t* mask = cairo_pattern_create_linear(x(c.a.x), y(c.a.y), x(c.b.x), y(c.b.y));
-    cairo_pattern_add_color_stop_rgba(mask, 0, 0, 0, 0, c.alpha_a);
-    cairo_pattern_add_color_stop_rgba(mask, 1, 0, 0, 0, c.alpha_b);
-    cairo_mask(cr_, mask);
-    cairo_pattern_destroy(mask);
+    libcairo().cairo_pop_group_to_source(cr_);
+    cairo_pattern_t* mask = libcairo().cairo_pattern_create_linear(x(c.a.x), y(c.a.y), x(c.b.x), y(c.b.y));
+    libcairo().cairo_pattern_add_color_stop_rgba(mask, 0, 0, 0, 0, c.alpha_a);
+    libcairo().cairo_pattern_add_color_stop_rgba(mask, 1, 0, 0, 0, c.alpha_b);
+    libcairo().cairo_mask(cr_, mask);
+    libcairo().cairo_pattern_destroy(mask);
   }
 
   void add(const Ellipse& e) {
@@ -189,42 +187,42 @@ class Painter {
     if (size_of(u) < kFlattestAxis) u = {kFlattestAxis, 0};
     if (size_of(v) < kFlattestAxis) v = (kFlattestAxis / length) * Point{-u.y, u.x};
     cairo_matrix_t before;
-    cairo_get_matrix(cr_, &before);
+    libcairo().cairo_get_matrix(cr_, &before);
     const cairo_matrix_t to_page = {scale_ * u.x,  -scale_ * u.y, scale_ * v.x,
                                     -scale_ * v.y, x(e.center.x), y(e.center.y)};
-    cairo_new_path(cr_);
-    cairo_transform(cr_, &to_page);
-    cairo_arc(cr_, 0, 0, 1, 0, 2 * std::numbers::pi);
-    cairo_close_path(cr_);
-    cairo_set_matrix(cr_, &before);
+    libcairo().cairo_new_path(cr_);
+    libcairo().cairo_transform(cr_, &to_page);
+    libcairo().cairo_arc(cr_, 0, 0, 1, 0, 2 * std::numbers::pi);
+    libcairo().cairo_close_path(cr_);
+    libcairo().cairo_set_matrix(cr_, &before);
     paint_path(e.paint, e.fade);
   }
 
   void add(const Arc& a) {
     const double sweep = std::clamp(a.sweep, -2 * std::numbers::pi, 2 * std::numbers::pi);
-    const auto draw = sweep > 0 ? cairo_arc_negative : cairo_arc;  // y points down here
-    cairo_new_path(cr_);
+    const auto draw = sweep > 0 ? libcairo().cairo_arc_negative : libcairo().cairo_arc;  // y points down here
+    libcairo().cairo_new_path(cr_);
     draw(cr_, x(a.center.x), y(a.center.y), scale_ * a.radius, -a.start, -(a.start + sweep));
     stroke(a.color, a.width, true);
   }
 
   void stroke(const Color& color, double width, bool round_ends) {
     set_color(color);
-    cairo_set_line_width(cr_, scale_ * width);
-    cairo_set_line_cap(cr_, round_ends ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
-    cairo_stroke(cr_);
+    libcairo().cairo_set_line_width(cr_, scale_ * width);
+    libcairo().cairo_set_line_cap(cr_, round_ends ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+    libcairo().cairo_stroke(cr_);
   }
 
   void add(const Polygon& p) {
-    cairo_new_path(cr_);
+    libcairo().cairo_new_path(cr_);
     for (int i = 0; i < p.count; ++i) line_to(p.corners[std::size_t(i)]);
-    cairo_close_path(cr_);
+    libcairo().cairo_close_path(cr_);
     paint_path(p.paint, p.fade);
   }
 
   void add(const Trail& trail) {
     for (const TrailRun& run : trail_runs(trail)) {
-      cairo_new_path(cr_);
+      libcairo().cairo_new_path(cr_);
       for (const std::vector<Point>& line : run.lines) {
         move_to(line.front());
         for (std::size_t i = 1; i < line.size(); ++i) line_to(line[i]);
@@ -239,10 +237,10 @@ class Painter {
     for (const Glyph& glyph : run.glyphs)
       glyphs.push_back({glyph.index, x(run.origin.x + glyph.x), y(run.origin.y + glyph.y)});
     if (run.stroke_width > 0) {
-      cairo_set_font_face(cr_, faces_.get(run.face));
-      cairo_set_font_size(cr_, scale_ * run.size);
-      cairo_new_path(cr_);
-      cairo_glyph_path(cr_, glyphs.data(), int(glyphs.size()));
+      libcairo().cairo_set_font_face(cr_, faces_.get(run.face));
+      libcairo().cairo_set_font_size(cr_, scale_ * run.size);
+      libcairo().cairo_new_path(cr_);
+      libcairo().cairo_glyph_path(cr_, glyphs.data(), int(glyphs.size()));
       return stroke(run.color, run.stroke_width, true);
     }
     std::string text;
@@ -254,10 +252,10 @@ class Painter {
       clusters.push_back({int(part.size()), int(cluster.count)});
       text += part;
     }
-    cairo_set_font_face(cr_, faces_.get(run.face));
-    cairo_set_font_size(cr_, scale_ * run.size);
+    libcairo().cairo_set_font_face(cr_, faces_.get(run.face));
+    libcairo().cairo_set_font_size(cr_, scale_ * run.size);
     set_color(run.color);
-    cairo_show_text_glyphs(cr_, text.data(), int(text.size()), glyphs.data(), int(glyphs.size()),
+    libcairo().cairo_show_text_glyphs(cr_, text.data(), int(text.size()), glyphs.data(), int(glyphs.size()),
                            clusters.data(), int(clusters.size()),
                            run.right_to_left ? CAIRO_TEXT_CLUSTER_FLAG_BACKWARD : cairo_text_cluster_flags_t(0));
   }
@@ -267,21 +265,21 @@ class Painter {
     const std::optional<SolidImage> image = bodies_->draw(solids);
     if (!image) return;
     cairo_surface_t* sheet = image_surface(image->pixels);
-    check(cairo_surface_status(sheet), "drawing bodies");
-    cairo_translate(cr_, x(image->place.x0), y(image->place.y1));
-    cairo_scale(cr_, scale_ * image->place.width() / image->pixels.width,
+    check(libcairo().cairo_surface_status(sheet), "drawing bodies");
+    libcairo().cairo_translate(cr_, x(image->place.x0), y(image->place.y1));
+    libcairo().cairo_scale(cr_, scale_ * image->place.width() / image->pixels.width,
                 scale_ * image->place.height() / image->pixels.height);
-    cairo_set_source_surface(cr_, sheet, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(cr_), CAIRO_FILTER_GOOD);
-    cairo_paint(cr_);
-    cairo_surface_destroy(sheet);
+    libcairo().cairo_set_source_surface(cr_, sheet, 0, 0);
+    libcairo().cairo_pattern_set_filter(libcairo().cairo_get_source(cr_), CAIRO_FILTER_GOOD);
+    libcairo().cairo_paint(cr_);
+    libcairo().cairo_surface_destroy(sheet);
   }
 
   void add(const Cells& cells) {
-    cairo_surface_t* sheet = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, cells.nx, cells.ny);
-    check(cairo_surface_status(sheet), "drawing a map");
-    unsigned char* pixels = cairo_image_surface_get_data(sheet);
-    const std::size_t stride = std::size_t(cairo_image_surface_get_stride(sheet));
+    cairo_surface_t* sheet = libcairo().cairo_image_surface_create(CAIRO_FORMAT_ARGB32, cells.nx, cells.ny);
+    check(libcairo().cairo_surface_status(sheet), "drawing a map");
+    unsigned char* pixels = libcairo().cairo_image_surface_get_data(sheet);
+    const std::size_t stride = std::size_t(libcairo().cairo_image_surface_get_stride(sheet));
     for (std::size_t row = 0; row < std::size_t(cells.ny); ++row)
       for (std::size_t column = 0; column < std::size_t(cells.nx); ++column) {
         const std::size_t from_top = std::size_t(cells.ny) - 1 - row;
@@ -291,14 +289,14 @@ class Painter {
         std::copy_n(reinterpret_cast<const unsigned char*>(&argb), 4,
                     pixels + from_top * stride + 4 * column);
       }
-    cairo_surface_mark_dirty(sheet);
-    cairo_translate(cr_, x(cells.rect.x0), y(cells.rect.y1));
-    cairo_scale(cr_, scale_ * cells.rect.width() / cells.nx, scale_ * cells.rect.height() / cells.ny);
-    cairo_set_source_surface(cr_, sheet, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(cr_), CAIRO_FILTER_NEAREST);
-    cairo_rectangle(cr_, 0, 0, cells.nx, cells.ny);
-    cairo_fill(cr_);
-    cairo_surface_destroy(sheet);
+    libcairo().cairo_surface_mark_dirty(sheet);
+    libcairo().cairo_translate(cr_, x(cells.rect.x0), y(cells.rect.y1));
+    libcairo().cairo_scale(cr_, scale_ * cells.rect.width() / cells.nx, scale_ * cells.rect.height() / cells.ny);
+    libcairo().cairo_set_source_surface(cr_, sheet, 0, 0);
+    libcairo().cairo_pattern_set_filter(libcairo().cairo_get_source(cr_), CAIRO_FILTER_NEAREST);
+    libcairo().cairo_rectangle(cr_, 0, 0, cells.nx, cells.ny);
+    libcairo().cairo_fill(cr_);
+    libcairo().cairo_surface_destroy(sheet);
   }
 
   cairo_t* cr_;
@@ -323,22 +321,22 @@ std::string pdf_text(const Picture& picture, const Fonts& fonts, const VectorPag
   constexpr double kPointsPerMm = 72 / 25.4;
   const double height = page.width_mm > 0 ? page.width_mm * kPointsPerMm / picture.aspect : page.height;
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-      cairo_pdf_surface_create_for_stream(append, &bytes, height * picture.aspect, height),
-      &cairo_surface_destroy);
+      libcairo().cairo_pdf_surface_create_for_stream(append, &bytes, height * picture.aspect, height),
+      libcairo().cairo_surface_destroy);
   const auto set = [&](cairo_pdf_metadata_t key, const std::string& value) {
-    cairo_pdf_surface_set_metadata(surface.get(), key, value.empty() ? nullptr : value.c_str());
+    libcairo().cairo_pdf_surface_set_metadata(surface.get(), key, value.empty() ? nullptr : value.c_str());
   };
   set(CAIRO_PDF_METADATA_TITLE, page.title);
   set(CAIRO_PDF_METADATA_SUBJECT, page.description);
   set(CAIRO_PDF_METADATA_KEYWORDS, page.metadata);
   set(CAIRO_PDF_METADATA_CREATE_DATE, "");  // else the time of the call
   {
-    const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(cairo_create(surface.get()),
-                                                                   &cairo_destroy);
+    const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(libcairo().cairo_create(surface.get()),
+                                                                   libcairo().cairo_destroy);
     paint_with_cairo(cairo.get(), picture, fonts, height);
   }
-  cairo_surface_finish(surface.get());
-  check(cairo_surface_status(surface.get()), "writing a PDF page");
+  libcairo().cairo_surface_finish(surface.get());
+  check(libcairo().cairo_surface_status(surface.get()), "writing a PDF page");
   return bytes;
 }
 
