@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kModel = R"(<mujoco>
   <option timestep="0.001"/>
-  <visual><global offwidth="4096" offheight="4096"/><quality shadowsize="2048"/></visual>
+  <visual><global offwidth="4096" offheight="4096"/></visual>
   <asset><texture name="floor" type="2d" builtin="checker" width="256" height="256" rgb1=".9 .9 .9" rgb2=".8 .8 .8"/>
     <material name="floor" texture="floor" texrepeat="4 4"/></asset>
   <worldbody>
