@@ -6,7 +6,7 @@ namespace {
 constexpr Name kRootLinks[] = {{"fixed", "to the world"}, {"floating", "on a floating joint"}};
 constexpr Name kOutcomes[] = {{"finish", "come to its end"},
                               {"diverge", "blow up: the picture then stands still, and the exit code is 0"},
-                              {"within_limits", "come to its end, and no joint pass a limit of its position, rate or effort: else the exit code is 7"}};
+                              {"within_limits", "come to its end, and no joint pass a limit of its position, rate or effort (with `limit: clamp` no effort is passed): else the exit code is 7"}};
 constexpr Name kLinkShapes[] = {{"auto", "visual in space and where the view is oblique, with bodies made where it shows none; else plain"},
                                 {"plain", "bars from joint to joint"},
                                 {"visual", "the model's <visual> shapes"},

@@ -128,14 +128,19 @@ TEST(Doubts, ThatALimitIsPassedIsAnErrorWhereTheSceneExpectsNone) {
     return run_program(with(with({"simulate", scene, "-o", folder.file("a.csv"), "--force", "--quiet", "--set", "torque.1=" + torque}, more), {}));
   };
   EXPECT_EQ(run("19", {}).status, 0);
-  for (const char* limit : {"report", "clamp", "stop"}) {
+  EXPECT_EQ(run("21", {"--set", "limit=clamp"}).status, 0) << "the torque is cut as it is asked to be";
+  for (const char* limit : {"report", "stop"}) {
     const ProgramResult passed = run("21", {"--set", std::string("limit=") + limit});
     EXPECT_EQ(passed.status, 7) << limit;
     EXPECT_THAT(passed.err, HasSubstr("joint 'joint1' passed its effort limit 20 with 21 at t = 0 s: `expect: within_limits` stands there")) << limit;
   }
   EXPECT_EQ(run("21", {"--set", "expect=finish"}).status, 0) << "negative control";
-  EXPECT_EQ(run_program({"render", scene, "--set", "torque.1=21", "-o", folder.file("a.mp4")}).status, 7);
+  const ProgramResult film = run_program({"render", scene, "--set", "torque.1=21", "-o", folder.file("a.mp4"), "--json"});
+  EXPECT_EQ(film.status, 7);
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.mp4")));
+  const Json told = Json::parse(film.out)["films"][0];
+  EXPECT_EQ(told["limits_passed"].size(), 1u);
+  EXPECT_EQ(told["files"].size(), 0u);
   EXPECT_EQ(run_program({"snapshot", scene, "--set", "torque.1=21", "--at", "0.05", "-o", folder.file("a.png")}).status, 7) << "passed before";
   EXPECT_EQ(run_program({"snapshot", scene, "--set", "torque.1=21 * (t > 0.08)", "--at", "0.05", "-o", folder.file("b.png"), "--quiet"}).status, 0) << "passed behind it";
   ASSERT_EQ(run_program({"sweep", scene, "--over", "torque.1=19,21", "-o", folder.file("s.csv"), "--quiet"}).status, 7);

@@ -454,8 +454,20 @@ TEST_F(Verify, TakesAFolderOfScenes) {
     write(std::string("films/") + name + ".yaml",
           "model: rr.urdf\ntorque: [0, 0]\nduration: 0.5\nmethod: rk4\nstep: 0.01\nvideo: {width: 320, height: 180}\n");
   accept_all("films/");
-  EXPECT_THAT(baselines("films"), Contains(testing::Key("a.png")));
+  EXPECT_THAT(baselines("films/snapshots"), Contains(testing::Key("a.png")));
   EXPECT_EQ(verify({}, "films").status, 0);
+
+  // One that cannot be read fails by itself.
+  replace("films/b.yaml", "method: rk4", "metod: rk4");
+  const Json results = this->results({}, "films");
+  EXPECT_EQ(picture(results, "a")["state"], "same");
+  EXPECT_EQ(picture(results, "b")["state"], "failed");
+  EXPECT_THAT(words(results, "b"), HasSubstr("metod"));
+  EXPECT_EQ(verify({}, "films").status, 1);
+  // Where none can be read there is no suite.
+  fs::remove(folder_.path() / "films/rr.urdf");
+  replace("films/a.yaml", "method: rk4", "metod: rk4");
+  EXPECT_EQ(verify({}, "films").status, 3);
 }
 
 TEST_F(Verify, IsTheSameOnOneThreadAndOnSeveral) {
@@ -592,6 +604,7 @@ TEST_F(Verify, FindsTheBaselinesOfTheFolderThatItStandsIn) {
   write("films/rr.urdf", read_whole_file("models/rr.urdf"));
   accept_all("films");
   EXPECT_EQ(run_program({"verify", "."}, {.folder = (folder_.path() / "films").string()}).status, 0);
+  EXPECT_TRUE(fs::exists(folder_.path() / "films/snapshots.baselines/rr.png"));  // where the repository is that the folder may be
 }
 
 TEST_F(Verify, BaselinesDoNotDependOnThePlace) {

@@ -161,6 +161,20 @@ TEST(Words, OfJointSpaceInAColumnAreWholeAndApart) {
   }
 }
 
+void expect_whole_and_apart(const Picture& picture, const std::string& what) {
+  const std::vector<Written> words = test::written_on(picture, fonts());
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Written& w = words[i];
+    EXPECT_TRUE(holds({0, 0, picture.aspect, 1}, w.ink, 0)) << what << "leaves the page: " << say(w);
+    EXPECT_EQ(w.run.text.find("..."), std::string::npos) << what << say(w);
+    if (w.clip >= 0) EXPECT_TRUE(holds(picture.clips[std::size_t(w.clip)], w.ink, kTouch)) << what << "cut: " << say(w);
+    for (std::size_t j = 0; j < i; ++j) {
+      const double allowed = of_one_formula(words[j], w) ? kLean * w.run.size : kTouch;
+      EXPECT_LE(depth(words[j].ink, w.ink), allowed) << what << "overlap: " << say(words[j]) << " and " << say(w);
+    }
+  }
+}
+
 // Few poses and many, of chains of up to seven joints, in a column and over a page's width: no caption lies on another, leaves its page or
 // shortens its pose, and times stand off the chains.
 TEST(Words, OfPosesOnPaperAreWholeAndApart) {
@@ -181,20 +195,35 @@ TEST(Words, OfPosesOnPaperAreWholeAndApart) {
           for (int i = 0; i < count && is_labelled; ++i) figure.labels.push_back("t = " + format_fixed(0.122 * i, 3) + " s");
           put_on_paper(figure, {.width_mm = width}, tip, poses, fonts());
           const Picture picture = draw_ellipse_figure(tip, poses, figure, fonts());
-          const std::vector<Written> words = test::written_on(picture, fonts());
-          for (std::size_t i = 0; i < words.size(); ++i) {
-            const Written& w = words[i];
-            EXPECT_TRUE(holds({0, 0, picture.aspect, 1}, w.ink, 0)) << what << "leaves the page: " << say(w);
-            EXPECT_EQ(w.run.text.find("..."), std::string::npos) << what << say(w);
-            if (w.clip >= 0) EXPECT_TRUE(holds(picture.clips[std::size_t(w.clip)], w.ink, kTouch)) << what << "cut: " << say(w);
-            for (std::size_t j = 0; j < i; ++j) {
-              const double allowed = of_one_formula(words[j], w) ? kLean * w.run.size : kTouch;
-              EXPECT_LE(depth(words[j].ink, w.ink), allowed) << what << "overlap: " << say(words[j]) << " and " << say(w);
-            }
-          }
+          expect_whole_and_apart(picture, what);
         }
     }
   }
+}
+
+// Rows of an RR, whose words for the masses may take a line of the foot; what has no room is refused.
+TEST(Words, OfRowsOnPaperAreWholeAndApart) {
+  const Chain chain = read_chain("models/rr.urdf", {});
+  const TipMass tip(chain);
+  std::vector<std::vector<double>> poses;
+  int drawn = 0;
+  for (int count = 1; count <= 8; ++count) {
+    poses.push_back({0, 0.4 + 0.3 * count});
+    for (const double width : {84.0, 174.0})
+      for (const bool has_letters : {false, true})
+        try {
+          PoseFigureOptions figure;
+          figure.layout = "row";
+          figure.letters = has_letters;
+          put_on_paper(figure, {.width_mm = width}, tip, poses, fonts());
+          expect_whole_and_apart(draw_ellipse_figure(tip, poses, figure, fonts()),
+                                 std::to_string(count) + " poses, " + format_shortest(width) + (has_letters ? " mm, letters: " : " mm: "));
+          ++drawn;
+        } catch (const Error& error) {
+          EXPECT_EQ(error.code(), ExitCode::usage) << error.what();
+        }
+  }
+  EXPECT_GE(drawn, 24);
 }
 
 // Negative control: each kind of fault is found.

@@ -167,7 +167,7 @@ void print_table(const FallTable& table, const std::string& set, bool searched) 
     std::printf("where the foot tips before the fall, the time of the fall is that of a foot that is held: a real one turns from there on\n");
   if (table.bears && std::any_of(table.rows.begin(), table.rows.end(), [&](const FallRow& row) { return what_became_of(table, row) == FallEnd::tips; }))
     std::printf("behind that this foot stays where a real one turns. At rest it bears %s N m of the ankle over the heel and %s N m over the toe: where the "
-                "ankle's torque goes beyond, cut it there by max(.., min(.., ..)) to see the fall\n",
+                "ankle's torque goes beyond, cut it there by max(.., min(.., ..)) to see the fall; a foot whose body moves may tip before\n",
                 format_significant(table.bears->first, 4).c_str(), format_significant(table.bears->second, 4).c_str());
   if (searched && table.edges.empty()) std::printf("no edges: all rows end alike\n");
   if (!set.empty()) std::printf("with %s\n", set.c_str());

@@ -148,7 +148,7 @@ Json small_clips(const RenderJob& job, const PreparedFilm& film, int frames) {
 void run_render(const RenderOptions& options) {
   check_outputs(options.outputs, options.scenes.size());
   const std::vector<PreparedFilm> films = load_all(options);
-  const std::vector<RenderJob> jobs = jobs_of(options, films);
+  std::vector<RenderJob> jobs = jobs_of(options, films);
   if (options.resume) keeps_what_is_finished();
 
   Json reports = Json::array();
@@ -156,7 +156,19 @@ void run_render(const RenderOptions& options) {
   for (std::size_t i = 0; i < films.size(); ++i) {
     say_choice(films[i].panels, options.common.quiet);
     if (!options.common.quiet) tell_of_unused_quality(jobs[i], films[i].scene);
-    const RenderResult result = render_film(films[i], jobs[i]);
+    RenderResult unfinished;
+    jobs[i].unfinished = &unfinished;
+    RenderResult result;
+    try {
+      result = render_film(films[i], jobs[i]);
+    } catch (const Error&) {
+      if (options.common.json && !unfinished.audit.is_null()) {
+        reports.push_back(unfinished.audit);
+        reports.back().update(files_json({}));
+        print_json({{"films", reports}});
+      }
+      throw;
+    }
     reports.push_back(result.audit);
     reports.back().update(files_json(result.files));
     reports.back()["part"] = nullptr;

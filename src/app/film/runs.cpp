@@ -195,6 +195,13 @@ std::string remedy_of(const Trajectory& trajectory, const Scene& scene) {
   return ": try a smaller step or another method";
 }
 
+std::vector<LimitEvent> unexpected_limits(const Trajectory& trajectory, const Scene& scene) {
+  std::vector<LimitEvent> passed;
+  if (scene.expect == Outcome::within_limits)
+    std::ranges::copy_if(trajectory.limits, std::back_inserter(passed), [&](const LimitEvent& one) { return !is_cut(one, scene.limit); });
+  return passed;
+}
+
 void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
   throw_if_interrupted();
   if (scene.expect == Outcome::diverge) {
@@ -206,11 +213,12 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
                   scene.place_of("expect"));
   }
   if (is_complete(trajectory.status)) {
-    if (scene.expect != Outcome::within_limits || trajectory.limits.empty()) return;
+    const std::vector<LimitEvent> passed = unexpected_limits(trajectory, scene);
+    if (passed.empty()) return;
     constexpr std::size_t kTold = 4;
     std::string limits;
-    for (std::size_t i = 0; i < std::min(trajectory.limits.size(), kTold); ++i) limits += (i == 0 ? "" : "; ") + to_string(trajectory.limits[i]);
-    if (trajectory.limits.size() > kTold) limits += "; and " + std::to_string(trajectory.limits.size() - kTold) + " more";
+    for (std::size_t i = 0; i < std::min(passed.size(), kTold); ++i) limits += (i == 0 ? "" : "; ") + to_string(passed[i]);
+    if (passed.size() > kTold) limits += "; and " + std::to_string(passed.size() - kTold) + " more";
     throw Error(ExitCode::limit, limits + ": `expect: within_limits` stands there", scene.place_of("expect"));
   }
   throw Error(ExitCode::numerical,
@@ -222,7 +230,8 @@ namespace {
 
 // What a still says of a run that goes on behind it.
 bool is_within_limits_until(const Trajectory& trajectory, const Scene& scene, int frame) {
-  return scene.expect != Outcome::within_limits || trajectory.limits.empty() || trajectory.limits.front().t > trajectory.t[std::size_t(frame)];
+  const std::vector<LimitEvent> passed = unexpected_limits(trajectory, scene);
+  return passed.empty() || passed.front().t > trajectory.t[std::size_t(frame)];
 }
 
 }  // namespace

@@ -68,6 +68,9 @@ std::vector<RunEvents> events_of(const Runs& runs);
 // The same for one run: it finished or was stopped by a limit, or diverged.
 void require_expected_end(const Trajectory& trajectory, const Scene& scene);
 
+// The limits that it passed though its scene expects it to stay within; an effort that `limit: clamp` keeps is none.
+std::vector<LimitEvent> unexpected_limits(const Trajectory& trajectory, const Scene& scene);
+
 // What is said while a panel runs.
 std::string simulating_text(const PreparedFilm& film, const PreparedScene& panel);
 

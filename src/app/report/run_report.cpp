@@ -196,12 +196,6 @@ std::vector<std::string> warning_lines(const FilmReport& report) {
   return lines;
 }
 
-namespace {
-
-bool is_cut(const LimitEvent& limit, LimitPolicy policy) { return policy == LimitPolicy::clamp && limit.quantity == "effort"; }
-
-}  // namespace
-
 std::string limit_note(const LimitEvent& limit, LimitPolicy policy) {
   return to_string(limit) + (is_cut(limit, policy) ? ": by limit: clamp, torques beyond it are cut" : "");
 }

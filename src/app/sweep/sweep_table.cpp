@@ -213,7 +213,7 @@ class RowMaker {
 
   std::string row_of(const Scene& scene, const Simulation& simulation, const Trajectory& run, const std::vector<Peak>& peaks) const {
     const bool as_expected =
-        scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status) && (scene.expect != Outcome::within_limits || run.limits.empty());
+        scene.expect == Outcome::diverge ? run.status == RunStatus::diverged : is_complete(run.status) && unexpected_limits(run, scene).empty();
     std::string trouble = run.trouble.empty() ? doubt_of(simulation, run) : run.trouble;
     for (const std::string& doubt : scene.doubts)
       if (std::ranges::find(known_, doubt) == known_.end()) trouble += (trouble.empty() ? kDoubtful : "; ") + doubt;

@@ -27,7 +27,7 @@ constexpr std::uintmax_t kLargestFacts = std::uintmax_t(64) << 20;  // bytes
 constexpr const char* kRecords = "records";
 constexpr const char* kCameraFile = "records/cameras.json";
 
-// What the suite is called, and lies beside its baselines: FOLDER of FOLDER/ and of `.` within it.
+// What the suite is called: FOLDER of FOLDER/ and of `.` within it.
 fs::path path_of(const Suite& suite) {
   fs::path path = fs::path(suite.file).lexically_normal();
   if (path.filename().empty()) path = path.parent_path();
@@ -38,14 +38,16 @@ fs::path path_of(const Suite& suite) {
   return path;
 }
 
+// Beside a suite's file; of a folder by itself in it, where those of its snapshots.yaml would lie: what is under version control
+// holds them.
 std::string folder_of(const Suite& suite) {
   fs::path path = path_of(suite);
-  if (!fs::is_directory(path)) path.replace_extension();
-  return path.string() + ".baselines";
+  if (fs::is_directory(path)) return (fs::path(suite.file) / "snapshots.baselines").lexically_normal().string();
+  return path.replace_extension().string() + ".baselines";
 }
 
-// a.yaml, a.yml and a folder a/ are three suites, whose baselines would lie in one folder: each knows its
-// own.
+// a.yaml and a.yml, or a folder and the snapshots.yaml in it, are two suites, whose baselines would lie in one folder: each knows
+// its own.
 std::string identity_of(const Suite& suite) {
   const fs::path path = path_of(suite);
   return printable(path.filename().string()) + (fs::is_directory(path) ? "/" : "");  // a name may be no text

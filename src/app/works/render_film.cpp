@@ -369,6 +369,20 @@ ClipMemory memory_of(const FilmReport& report, const Schedule& schedule, const J
 
 }  // namespace
 
+namespace {
+
+std::optional<Error> unexpected_end(const Runs& runs) {
+  try {
+    runs.require_expected_ends();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::numerical && error.code() != ExitCode::limit) throw;  // a signal
+    return error;
+  }
+  return {};
+}
+
+}  // namespace
+
 ClipMemory memory_of_film(const PreparedFilm& film) {
   const Runs runs(film);
   const Fonts fonts(families_of(film.scene));
@@ -416,6 +430,14 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   }
   result.audit["held_frames"] = held_frames_of(schedule);
 
+  const std::optional<Error> trouble = unexpected_end(runs);
+  const auto fail = [&] {
+    if (job.unfinished != nullptr) *job.unfinished = result;
+    throw Error(*trouble);
+  };
+  // Of a run that was lost the film until then is kept; one beyond its limits is none.
+  if (trouble && trouble->code() == ExitCode::limit) fail();
+
   FrameRange range{0, result.frames};
   std::string part;
   if (is_part) {
@@ -448,14 +470,11 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   result.times.total = total.lap().wall;
   result.audit["seconds"] = to_json(result.times);
 
-  try {
-    runs.require_expected_ends();
-  } catch (const Error& error) {
-    if (error.code() == ExitCode::numerical) {  // a signal leaves nothing
-      keep_partial(outputs);
-      forget_chunks(outputs, range, total_frames);
-    }
-    throw;
+  throw_if_interrupted();  // a signal leaves nothing
+  if (trouble) {
+    keep_partial(outputs);
+    forget_chunks(outputs, range, total_frames);
+    fail();
   }
   const OtherAudits others = others_kept(sidecars, job, scene, outputs, result);
   tell(report, job, result);

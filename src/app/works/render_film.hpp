@@ -14,6 +14,8 @@
 
 namespace chainreel {
 
+struct RenderResult;
+
 struct RenderJob {
   std::vector<Target> targets;
   double at = 0;  // s, instant of the motion that stills show
@@ -23,6 +25,7 @@ struct RenderJob {
   bool overwrite = false;
   bool quiet = false;
   bool tells = true;  // on standard error; false: the caller tells of the runs, their warnings and the notes
+  RenderResult* unfinished = nullptr;  // is given what is known of a film whose run does not end as expected, before that is thrown
 };
 
 struct RenderResult {

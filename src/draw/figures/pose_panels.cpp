@@ -299,14 +299,21 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
   const PoseFigureOptions& options = page.options;
   // The scale follows from the size of the panels: they are laid out with the longest bar and label that may
   // come.
-  const Rect area = sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts, page.height).scene;
+  const auto area_of = [&](bool names_masses) {
+    return sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts, page.height, names_masses).scene;
+  };
+  const Rect area = area_of(false), above_masses = area_of(true);  // words that name the masses may take a line of their own
   std::optional<Panels> best;
   const int count = int(poses.size()), only = options.layout == "row" ? count : std::min(options.across, count);
   for (int across = std::max(only, 1); across <= (only > 0 ? only : count); ++across)
     for (const bool beside : {false, true}) {
-      Panels panels{chain, page, fonts};
-      if (lay_out(panels, area, across, beside, poses, ws) && (!best || merit(panels) > merit(*best)))
-        best.emplace(std::move(panels));
+      for (const Rect& above : {area, above_masses}) {
+        Panels panels{chain, page, fonts};
+        if (!lay_out(panels, above, across, beside, poses, ws)) break;
+        if (panels.has_bare_masses && above.y0 < above_masses.y0) continue;
+        if (!best || merit(panels) > merit(*best)) best.emplace(std::move(panels));
+        break;
+      }
     }
   return best;
 }

@@ -75,6 +75,8 @@ class SpeedBox : public Layer {
   bool stands_still(int k) const {
     const std::vector<double>& times = stage_->times;
     const auto at = std::size_t(k);
+    const Hold& held = stage_->page.hold;
+    if ((at == 0 && held.first > 0) || (at + 1 == times.size() && held.last > 0)) return true;
     return (at > 0 && times[at - 1] == times[at]) || (at + 1 < times.size() && times[at + 1] == times[at]);
   }
 

@@ -356,27 +356,33 @@ Suite suite_of_folder(const std::string& path) {
   if (files.empty())
     throw Error(ExitCode::bad_input,
                 "holds no scene (.yaml), no model (.urdf) and no " + std::string(kDefaultFile), {path});
-  ProblemList problems;
+  ProblemList problems, broken;
+  std::size_t sound = 0;
   PictureNames names;
-  for (const fs::path& file : files) try {
-      SuitePicture picture;
-      const auto is_its_scene = [&file](const fs::path& other) { return is_yaml(other) && other.stem() == file.stem(); };
-      const bool has_scene = !is_yaml(file) && std::any_of(files.begin(), files.end(), is_its_scene);
-      picture.name = file_name_of(file.stem().string() + (has_scene ? kOfModel : ""));
-      picture.source = file.lexically_normal().string();
-      picture.is_model = !is_yaml(file);
-      picture.telling = !picture.is_model;
-      picture.place = {picture.source};
+  for (const fs::path& file : files) {
+    SuitePicture picture;
+    const auto is_its_scene = [&file](const fs::path& other) { return is_yaml(other) && other.stem() == file.stem(); };
+    const bool has_scene = !is_yaml(file) && std::any_of(files.begin(), files.end(), is_its_scene);
+    picture.name = file_name_of(file.stem().string() + (has_scene ? kOfModel : ""));
+    picture.source = file.lexically_normal().string();
+    picture.is_model = !is_yaml(file);
+    picture.telling = !picture.is_model;
+    picture.place = {picture.source};
+    // What cannot be read fails by itself, when its picture is drawn: nothing is lost of the others.
+    try {
       if (picture.is_model)
         picture.q = resting_pose(read_chain(picture.source));
       else
         read_scene(picture.source);
-      names.add(picture.name, picture.place, problems);
-      suite.pictures.push_back(std::move(picture));
+      ++sound;
     } catch (const Error& error) {
-      add_problems(error, problems);
+      add_problems(error, broken);
     }
+    names.add(picture.name, picture.place, problems);
+    suite.pictures.push_back(std::move(picture));
+  }
   problems.throw_if_any();
+  if (sound == 0) broken.throw_if_any();
   return suite;
 }
 

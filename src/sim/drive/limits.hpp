@@ -33,6 +33,9 @@ struct LimitEvent {
   double limit = 0;
 };
 
+// Whether its torque was cut there, as `limit: clamp` asks for, and did not pass it.
+inline bool is_cut(const LimitEvent& event, LimitPolicy policy) { return policy == LimitPolicy::clamp && event.quantity == "effort"; }
+
 // "joint 'elbow' passed its position limit 1.5 with 1.52 at t = 0.31 s"
 std::string to_string(const LimitEvent& event);
 
