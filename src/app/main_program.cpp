@@ -27,6 +27,9 @@ int run(int argc, char** argv, void (*add_commands)(CommandLine&)) {
   app.add_choice("--gl", "CHAINREEL_GL", words_of(names_of(GlBackend{})),
                  "where OpenGL comes from, and whether it is needed: the bytes are the same",
                  [](const std::string& word) { choose_gl_backend(*value_named<GlBackend>(word)); });
+  app.add_choice("--warnings", "CHAINREEL_WARNINGS", words_of(names_of(AfterWarnings{})),
+                 "what comes of a WARNING: fail ends with exit code 1 where one was told, behind all that is written",
+                 [](const std::string& word) { choose_after_warnings(*value_named<AfterWarnings>(word)); });
   add_commands(app);
   return app.run(argc, argv);
 }
@@ -58,7 +61,8 @@ int main_program(int argc, char** argv, void (*add_commands)(CommandLine&)) {
   settle_environment();
   install_last_words();
   install_signal_handlers();
-  const int code = run_and_tell(argc, argv, add_commands);
+  int code = run_and_tell(argc, argv, add_commands);
+  if (code == int(ExitCode::good) && fails_by_warnings()) code = int(ExitCode::comparison_failed);
   if (flush_standard_output() || code != int(ExitCode::good)) return code;
   return int(ExitCode::file);
 }

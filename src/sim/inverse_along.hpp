@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/chain.hpp"
+#include "sim/drive/limits.hpp"
 #include "sim/drive/recorded_motion.hpp"
 #include "sim/system/constraint_plan.hpp"
 
@@ -24,6 +25,7 @@ struct InverseAlong {
   std::vector<double> lambda;     // rows numbers an instant, N or N m
   // How far the motion is from keeping the constraints, at worst: |phi|, |Jc qd|, |Jc qdd + Jcd_qd|.
   double position_error = 0, velocity_error = 0, acceleration_error = 0;
+  std::vector<LimitEvent> limits;  // of joints, that the motion or its torques are first beyond, at the instants
 };
 
 // Throws Error (bad input) where the motion leaves the constraints, (numerical) naming row and column where a number overflows.

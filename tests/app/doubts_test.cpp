@@ -119,6 +119,21 @@ TEST(Doubts, OfLimitsThatTheModelDoesNotHave) {
   EXPECT_EQ(run_program(with(limited, {"--quiet"})).err, "");
 }
 
+// CI may take a WARNING for an error; what is acknowledged is none.
+TEST(Doubts, FailWhereThatIsAskedFor) {
+  const TemporaryFolder folder;
+  const Words drifts{"simulate", "assets/scenes/rr_free.yaml", "-o", folder.file("a.csv"), "--force", "--quiet"};
+  EXPECT_EQ(run_program(drifts).status, 0);
+  const ProgramResult failed = run_program(with(drifts, {"--warnings", "fail"}));
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_THAT(failed.err, AllOf(HasSubstr("WARNING: rr_free: the energy is off"), HasSubstr("1 WARNING above")));
+  EXPECT_FALSE(read_whole_file(folder.file("a.csv")).empty());
+  EXPECT_EQ(run_program(drifts, {.environment = {{"CHAINREEL_WARNINGS", "fail"}}}).status, 1);
+  EXPECT_EQ(run_program(with(drifts, {"--warnings", "fail", "--set", "acknowledge=[energy]"})).status, 0);
+  EXPECT_EQ(run_program(with(drifts, {"--warnings", "fail", "--set", "duration=0.1"})).status, 0) << "negative control";
+  EXPECT_EQ(run_program(with(drifts, {"--warnings", "maybe"})).status, 2);
+}
+
 // A script asks by the exit code whether joints stay within their limits.
 TEST(Doubts, ThatALimitIsPassedIsAnErrorWhereTheSceneExpectsNone) {
   const TemporaryFolder folder;

@@ -57,6 +57,31 @@ TEST(FilmOfToday, IsWhatItsSceneShowsUntilSceneOrModelChange) {
   EXPECT_THAT(asked(folder.file("e.png")).err, HasSubstr("is a figure that does not remember")) << "it measures";
 }
 
+// Of a sequence the first frame is asked for all: further ones are told where they are gone or were replaced.
+TEST(FilmOfToday, OfASequenceEachFrameIsLookedAt) {
+  const TemporaryFolder folder;
+  folder.write("rr.urdf", own_model());
+  const std::string scene = folder.write("s.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.5\nmethod: rk4\nvideo: {width: 160, height: 90, fps: 10}\n");
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "-o", folder.file("out/f_000000.png")}).status, 0);
+  const auto asked = [&] { return run_program({"check", folder.file("out"), "--today"}); };
+  const ProgramResult same = asked();
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  EXPECT_THAT(same.out + same.err, Not(HasSubstr("not asked about")));
+  const std::string third = read_whole_file(folder.file("out/f_000003.png"));
+  folder.write("out/f_000003.png", read_whole_file(folder.file("out/f_000001.png")));
+  const ProgramResult replaced = asked();
+  EXPECT_EQ(replaced.status, 1);
+  EXPECT_THAT(replaced.out, HasSubstr("f_000003.png is not as it was written"));
+  fs::remove(folder.file("out/f_000003.png"));
+  const ProgramResult gone = asked();
+  EXPECT_EQ(gone.status, 1);
+  EXPECT_THAT(gone.out, HasSubstr("f_000003.png is gone"));
+  EXPECT_EQ(run_program({"check", folder.file("out/f.json")}).status, 1);
+  folder.write("out/f_000003.png", third);
+  EXPECT_EQ(asked().status, 0);
+  EXPECT_EQ(run_program({"check", folder.file("out/f.json")}).status, 0);
+}
+
 // Pictures without an audit: scenes of the name that they remember are looked for, models of figures, too; and what is not known is said.
 TEST(FilmOfToday, FindsWhatPicturesWithoutAuditsShow) {
   const TemporaryFolder folder;

@@ -208,6 +208,26 @@ TEST(DynamicsCommand, GivesTheSameByLagrangeAndByNewtonAndEuler) {
   EXPECT_NEAR(kinetic, one["kinetic"].get<double>(), 1e-12);
 }
 
+// A joint held at 90 degrees to gravity needs m g l / 2; what was recorded is asked for its limits, too.
+TEST(InverseCommand, TellsLimitsThatAMotionPasses) {
+  const TemporaryFolder folder;
+  folder.write("log.csv", "t,q1\n0,0\n0.1,0\n0.2,0\n0.3,0\n");
+  const auto asked = [&](const char* effort) {
+    const std::string scene = folder.write("log.yaml", std::string("model: {links: [1], masses: [2], efforts: ") + effort + "}\nmotion: log.csv\nexpect: within_limits\n");
+    return run_program({"inverse", scene, "--json", "--force", "-o", folder.file("tau.csv")});
+  };
+  const double needed = 2 * 9.81 / 2;
+  const ProgramResult passed = asked("9.8");
+  EXPECT_EQ(passed.status, 7);
+  EXPECT_THAT(passed.err, HasSubstr("passed its effort limit 9.8 with 9.81"));
+  const Json limits = Json::parse(passed.out)["limits_passed"];
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_NEAR(limits[0]["value"].get<double>(), needed, 1e-12);
+  const ProgramResult within = asked("9.82");
+  EXPECT_EQ(within.status, 0) << within.err;
+  EXPECT_EQ(Json::parse(within.out)["limits_passed"].size(), 0u);
+}
+
 TEST(InverseCommand, UndoesForwardDynamics) {
   const TemporaryFolder folder;
   const std::string motion = folder.file("q.csv"), torques = folder.file("tau.csv");

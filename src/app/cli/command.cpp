@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/cli/streams.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/json.hpp"
@@ -221,7 +222,7 @@ std::vector<double> parse_pose(const Chain& chain, const std::string& text, cons
   if (const std::string trouble = trouble_of_units(chain, written, StateNumbers::q); !trouble.empty())
     throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   for (const std::string& doubt : doubts_of_pose(chain, q, written))
-    std::fprintf(stderr, "WARNING: %s: %s\n", what.c_str(), doubt.c_str());
+    tell_warning(what + ": " + doubt);
   if (const std::string trouble = trouble_of_pose(chain, q); !trouble.empty())
     throw Error(ExitCode::usage, what + " " + text + ": " + trouble);
   return q;

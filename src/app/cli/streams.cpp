@@ -144,6 +144,32 @@ void keep_and_tell(OutputFile& file) {
   std::fprintf(stderr, "note: what there is of it: %s%s\n", partial.c_str(), is_older ? ("; " + file.path() + " is still that of an earlier run").c_str() : "");
 }
 
+namespace {
+
+std::atomic<int> warnings_told = 0;
+AfterWarnings after_warnings = AfterWarnings::tell;
+
+}  // namespace
+
+std::span<const Name> names_of(AfterWarnings) {
+  static constexpr Name names[] = {{"tell", "nothing"}, {"fail", "exit code 1"}};
+  return names;
+}
+
+void tell_warning(const std::string& words) {
+  ++warnings_told;
+  std::fprintf(stderr, "WARNING: %s\n", words.c_str());
+}
+
+void choose_after_warnings(AfterWarnings what) { after_warnings = what; }
+
+bool fails_by_warnings() {
+  if (after_warnings != AfterWarnings::fail || warnings_told == 0) return false;
+  std::fprintf(stderr, "%d WARNING%s above, which --warnings fail lets be an error; `acknowledge` in a scene names those that are known\n",
+               int(warnings_told), warnings_told == 1 ? "" : "s");
+  return true;
+}
+
 bool flush_standard_output() {
   Guard& guard = guard_of(STDOUT_FILENO);
   const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && guard.trouble == 0;

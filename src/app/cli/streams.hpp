@@ -3,8 +3,11 @@
 
 #include <csignal>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/output_file.hpp"
 
 namespace chainreel {
@@ -16,6 +19,17 @@ void guard_streams();
 
 // Every problem on standard error: each some lines long at most, temporary files under their final names.
 void print_error(const Error& error);
+
+// "WARNING: words" on standard error, however quiet: what speaks against a scene or a run.
+void tell_warning(const std::string& words);
+
+// What comes of a program that told one.
+enum class AfterWarnings { tell, fail };
+std::span<const Name> names_of(AfterWarnings);
+// From now on.
+void choose_after_warnings(AfterWarnings what);
+// Whether one was told that lets the program fail; then that is said.
+bool fails_by_warnings();
 
 // What there is of a run that failed, under its .partial name, which is said; also that a file of an earlier run still has the
 // name that was asked for.

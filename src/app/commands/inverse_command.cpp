@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/cli/command.hpp"
 #include "app/cli/table_files.hpp"
 #include "app/film/model_scene.hpp"
+#include "app/film/runs.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/report/peaks.hpp"
 #include "app/report/run_report.hpp"
@@ -36,6 +38,7 @@ struct Recorded {
   Chain chain;
   ConstraintPlan constraints;
   std::shared_ptr<const RecordedMotion> motion;
+  std::optional<Scene> scene{};  // none of a model
 };
 
 std::shared_ptr<const RecordedMotion> motion_of(const Chain& chain, const InverseOptions& options) {
@@ -68,7 +71,7 @@ Recorded load(const InverseOptions& options) {
                                      "torques of the motion alone", scene.place_of("push"));
   Simulation simulation = prepare(scene, false);
   for (const std::string& doubt : scene.doubts) tell_warnings({scene.name + ": " + doubt});
-  Recorded recorded{std::move(simulation.chain), std::move(simulation.constraints), simulation.motion};
+  Recorded recorded{std::move(simulation.chain), std::move(simulation.constraints), simulation.motion, std::move(scene)};
   if (!recorded.motion) recorded.motion = motion_of(recorded.chain, options);
   return recorded;
 }
@@ -77,6 +80,7 @@ Recorded load(const InverseOptions& options) {
 void tell_doubts(const InverseOptions& options, const RecordedMotion& motion, const InverseAlong& inverse) {
   if (!options.trajectory.empty()) tell_warnings(motion.doubts());
   if (options.common.quiet) return;
+  for (const LimitEvent& limit : inverse.limits) std::fprintf(stderr, "%s\n", to_string(limit).c_str());
   for (const std::string& remark : motion.remarks(motion.own_torques_beside(inverse.tau))) std::fprintf(stderr, "%s\n", remark.c_str());
 }
 
@@ -91,7 +95,7 @@ DataTable table_of(const Recorded& recorded, const InverseAlong& inverse) {
 }
 
 Json report_of(const RecordedMotion& motion, const InverseAlong& inverse, const std::vector<NamedPeak>& peaks) {
-  Json json{{"rows", inverse.t.size()}, {"peaks", to_json(peaks)}, {"coarse_torques", nullptr}};
+  Json json{{"rows", inverse.t.size()}, {"peaks", to_json(peaks)}, {"limits_passed", to_json(inverse.limits)}, {"coarse_torques", nullptr}};
   if (const auto& coarse = motion.coarse_torques()) json["coarse_torques"] = {{"largest_difference", coarse->largest}, {"t", coarse->t}, {"freedom", coarse->freedom}};
   json["constraints"] = nullptr;
   if (!inverse.rows.empty())
@@ -117,6 +121,10 @@ void run_inverse(const InverseOptions& options) {
   files.write(found);
   records.write();
   files.tell(options.common, inverse.t.size(), report_of(*recorded.motion, inverse, peaks), words_of(peaks));
+  if (!recorded.scene) return;
+  Trajectory ended;
+  ended.limits = inverse.limits;
+  require_expected_end(ended, *recorded.scene);
 }
 
 }  // namespace

@@ -170,7 +170,7 @@ std::vector<std::string> notice_lines(std::span<const PreparedScene> panels) {
 }
 
 void say_notices(std::span<const PreparedScene> panels, bool quiet) {
-  for (const std::string& line : doubt_lines(panels)) std::fprintf(stderr, "WARNING: %s\n", line.c_str());
+  for (const std::string& line : doubt_lines(panels)) tell_warning(line);
   if (quiet) return;
   for (const std::string& line : notice_lines(panels)) std::fprintf(stderr, "%s\n", line.c_str());
 }

@@ -85,7 +85,7 @@ std::string page_of_program(const std::vector<CommandTable>& commands, const Com
   for (const CommandTable& command : commands) text += ".TP\n\\fB" + roff(command.name) + "\\fR\n" + roff(command.about) + "\n";
   text += ".SH OPTIONS\n" + options_text(shared);
   text += ".SH EXIT STATUS\n" + roff(exit_code_words()) + ".\n";
-  text += ".SH ENVIRONMENT\n.TP\n.B CHAINREEL_GL\nas " + roff("--gl") + "\n";
+  text += ".SH ENVIRONMENT\n.TP\n.B CHAINREEL_GL\nas " + roff("--gl") + "\n.TP\n.B CHAINREEL_WARNINGS\nas " + roff("--warnings") + "\n";
   text += ".SH FILES\n.TP\n.I share/chainreel/assets/scenes\nscenes that are known by their name\n.TP\n.I share/chainreel/models\ntheir "
           "models\n.TP\n.I share/chainreel/assets/guide\nthe guide; its reference is also told by " + roff("`chainreel help`") + "\n";
   return text + see_also(commands);

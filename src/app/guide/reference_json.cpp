@@ -123,7 +123,7 @@ const std::vector<JsonReport>& json_reports() {
                              {"rows", "[{value, status, end_time, fall_time, ended_by, first, stands, tips_at, tips_over, falls, takes_off_at, foot_bears, trouble}]; foot_bears {over_heel, over_toe}, N m of the ankle that a foot at rest bears before it tips, or null"},
                              {"edges", "[{before, behind, from, to, rows, contradicted_at}] of --edges: values of the key between which the end changes, the rows around them, and one between these that ends otherwise, or null"}})},
       {"dynamics", kState},
-      {"inverse", with(kFiles, {{"rows", "of the table"}, {"peaks", "of each torque and multiplier, at the rows: [{name, unit, value, t}]"}, {"coarse_torques", "{largest_difference, t, freedom}: how far torques of splines through every other row are from these, where the table tells no accelerations and has rows enough; or null"}, {"constraints", "rows and errors of a scene's constraints; or null"}})},
+      {"inverse", with(kFiles, {{"rows", "of the table"}, {"peaks", "of each torque and multiplier, at the rows: [{name, unit, value, t}]"}, {"limits_passed", "first by each joint, of position, rate and effort, at the rows: [{joint, quantity, t, value, limit}]"}, {"coarse_torques", "{largest_difference, t, freedom}: how far torques of splines through every other row are from these, where the table tells no accelerations and has rows enough; or null"}, {"constraints", "rows and errors of a scene's constraints; or null"}})},
       {"equations", with(kFiles, {{"model, coordinates", "what it is about"},
                                   {"M, C, g, damping, friction, J, Lambda", "formulas as text"},
                                   {"end_effector", "the link of J and Lambda"},

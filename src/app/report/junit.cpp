@@ -13,17 +13,16 @@
 namespace chainreel {
 namespace {
 
-// By which it is known as ours.
-const char* const kJunitName = "chainreel verify";
+const std::string kOfProgram = "chainreel ";
 
 }  // namespace
 
-std::string junit_text(const std::string& suite, const std::vector<JunitCase>& cases) {
+std::string junit_text(const std::string& command, const std::string& suite, const std::vector<JunitCase>& cases) {
   const auto count = [&](bool errors) { return int(std::ranges::count_if(cases, [&](const JunitCase& one) { return !one.fault.empty() && one.is_error == errors; })); };
   tinyxml2::XMLPrinter printer;
   printer.PushHeader(false, true);
   printer.OpenElement("testsuites");
-  printer.PushAttribute("name", kJunitName);
+  printer.PushAttribute("name", (kOfProgram + command).c_str());
   printer.OpenElement("testsuite");
   printer.PushAttribute("name", printable(suite).c_str());
   printer.PushAttribute("tests", int(cases.size()));
@@ -48,7 +47,7 @@ std::string junit_text(const std::string& suite, const std::vector<JunitCase>& c
 }
 
 bool is_own_junit(const std::string& head) {
-  return head.find("<testsuites name=\"" + std::string(kJunitName) + "\"") != std::string::npos;
+  return head.find("<testsuites name=\"" + kOfProgram) != std::string::npos;
 }
 
 void write_junit(const std::string& path, const std::string& text) {

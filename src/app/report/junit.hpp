@@ -13,8 +13,8 @@ struct JunitCase {
   bool is_error = false;    // nothing could be compared
 };
 
-// One suite, under a name by which it is known as ours.
-std::string junit_text(const std::string& suite, const std::vector<JunitCase>& cases);
+// One suite, by a command as "verify", by whose name it is known as ours and told from others'.
+std::string junit_text(const std::string& command, const std::string& suite, const std::vector<JunitCase>& cases);
 
 // Whether the head of a file is such a text's.
 bool is_own_junit(const std::string& head);

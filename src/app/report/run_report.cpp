@@ -150,22 +150,22 @@ Json to_json(const RunReport& report) {
     json["warnings"].push_back(
         {{"kind", doubt.kind}, {"amount", doubt.amount}, {"what", doubt.words}, {"remedy", doubt.remedy}});
   json["constraint_error"] = trajectory.rows > 0 ? report.constraints() : Json(nullptr);
-  json["limits_passed"] = Json::array();
-  for (const LimitEvent& event : trajectory.limits) {
-    json["limits_passed"].push_back({{"joint", event.joint},
-                                     {"quantity", event.quantity},
-                                     {"t", event.t},
-                                     {"value", event.value},
-                                     {"limit", event.limit}});
-  }
+  json["limits_passed"] = to_json(trajectory.limits);
   add_events(json, scene, trajectory);
   json["trajectory_sha256"] = audit.sha256;
   json["left_picture_at"] = or_null(report.left_picture_at);
   return json;
 }
 
+Json to_json(const std::vector<LimitEvent>& limits) {
+  Json json = Json::array();
+  for (const LimitEvent& one : limits)
+    json.push_back({{"joint", one.joint}, {"quantity", one.quantity}, {"t", one.t}, {"value", one.value}, {"limit", one.limit}});
+  return json;
+}
+
 void tell_warnings(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) std::fprintf(stderr, "WARNING: %s\n", line.c_str());
+  for (const std::string& line : lines) tell_warning(line);
 }
 
 void warn_of_rank(const PreparedScene& prepared, double end) {

@@ -68,6 +68,9 @@ Json to_json(const FilmReport& report);
 // What speaks against runs, a line each.
 std::vector<std::string> warning_lines(const std::string& name, const RunReport& report);
 std::vector<std::string> warning_lines(const FilmReport& report);
+// The limits that joints passed, as they stand in reports.
+Json to_json(const std::vector<LimitEvent>& limits);
+
 // On standard error. Said even where all is to be quiet.
 void tell_warnings(const std::vector<std::string>& lines);
 // Of what is computed along a run of which no report is made: tells where its constraints come to depend on each other until `end`, s, unless the scene

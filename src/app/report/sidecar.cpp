@@ -68,6 +68,12 @@ Json audited_file(const std::string& path) {
   return {{"file", fs::path(path).filename().string()}, {"bytes", hashed.bytes}, {"sha256", hashed.sha256}};
 }
 
+std::string name_of_frame(const std::string& first, std::size_t k) {
+  const std::string ending = ".png", digits = std::to_string(k), zeros = "000000";
+  const std::size_t end = first.size() - std::min(first.size(), ending.size() + zeros.size());
+  return first.substr(0, end) + (digits.size() < zeros.size() ? zeros.substr(digits.size()) : "") + digits + ending;
+}
+
 Json clip_facts(int width, int height, FrameRate fps, int frames) {
   const int common = std::gcd(fps.num, fps.den), num = fps.num / common, den = fps.den / common;
   return {{"frames", frames},

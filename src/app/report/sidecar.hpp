@@ -29,6 +29,11 @@ inline constexpr const char* kMadeBy = "made_by";
 // they lie beside it. Throws Error (exit 3) where it cannot be read.
 inline constexpr const char* kAuditedFiles = "outputs";
 Json audited_file(const std::string& path);
+// Of a sequence, whose first frame the audit names, the beginnings of the hashes of all its frames, kHashDigits each, under this key.
+inline constexpr const char* kFrameHashes = "frames_sha256";
+inline constexpr std::size_t kHashDigits = 16;
+// The name of frame k, where `first` is that of frame 0, NAME_000000.png.
+std::string name_of_frame(const std::string& first, std::size_t k);
 // What an audit says of its files; [] where it is none.
 Json audited_files_of(const Json& audit);
 // What an audit says of a clip's frames: frames, fps (15 or "30000/1001"), width, height, film_seconds.

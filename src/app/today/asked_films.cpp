@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "app/cli/streams.hpp"
 #include "app/film/clip_memory.hpp"
@@ -21,6 +22,14 @@ namespace fs = std::filesystem;
 // Which audits of a folder tell of a file that has none beside it. Each folder is read once.
 class AuditsOfFolders {
  public:
+  // Whether it is a further frame of a sequence that an audit of its folder tells of by its first.
+  bool is_further_frame(const std::string& path) {
+    const fs::path file(path);
+    const auto [folder, is_new] = folders_.try_emplace(file.has_parent_path() ? file.parent_path().string() : ".");
+    if (is_new) read(folder->first, folder->second);
+    return folder->second.frames.contains(file.filename().string());
+  }
+
   // What tells of a file: itself where an audit lies beside it, else the one audit of its folder that does; "" where none or several do.
   std::string telling_of(const std::string& path) {
     const fs::path file(path);
@@ -30,23 +39,30 @@ class AuditsOfFolders {
     if (fs::is_regular_file(audit_path_of(path), code)) return path;
     const auto [folder, is_new] = folders_.try_emplace(file.has_parent_path() ? file.parent_path().string() : ".");
     if (is_new) read(folder->first, folder->second);
-    const std::vector<std::string>& audits = folder->second[file.filename().string()];
+    const std::vector<std::string>& audits = folder->second.tellers[file.filename().string()];
     return audits.size() == 1 ? audits.front() : "";
   }
 
  private:
-  using Tellers = std::map<std::string, std::vector<std::string>>;  // of each file's name the audits that tell of it
+  struct Folder {
+    std::map<std::string, std::vector<std::string>> tellers;  // of each file's name the audits that tell of it
+    std::set<std::string> frames;                             // names of those behind the first ones of sequences
+  };
 
-  static void read(const std::string& folder, Tellers& tellers) {
+  static void read(const std::string& folder, Folder& found) {
     std::error_code code;
     for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
       const std::string path = entry->path().string();
       if (lower_case_ending(path) != ".json") continue;
-      for (const Json& one : audited_files_of(audit_beside(path))) tellers[word_of(one, "file")].push_back(path);
+      for (const Json& one : audited_files_of(audit_beside(path))) {
+        found.tellers[word_of(one, "file")].push_back(path);
+        const std::string hashes = one.is_object() ? word_of(one, kFrameHashes) : "";
+        for (std::size_t k = 1; (k + 1) * kHashDigits <= hashes.size(); ++k) found.frames.insert(name_of_frame(word_of(one, "file"), k));
+      }
     }
   }
 
-  std::map<std::string, Tellers> folders_;
+  std::map<std::string, Folder> folders_;
 };
 
 OwnAudit own_audit(const std::string& path, AuditsOfFolders& audits) {
@@ -62,8 +78,15 @@ OwnAudit own_audit(const std::string& path, AuditsOfFolders& audits) {
     for (const Json& one : audited_files_of(audit.json))
       if (word_of(one, "file") == fs::path(path).filename().string()) audit.at = one.value("at", Json());
     const bool is_record = audit.json.is_object() && audit.json.contains(kMadeBy);
-    for (const AuditCheck::File& file : check.files)
-      if (!is_record && file.state == AuditedState::missing && find_output_format(file.path) == nullptr) audit.texts_gone.push_back(file.path);
+    const bool is_sequence = std::ranges::any_of(audited_files_of(audit.json), [](const Json& one) { return one.is_object() && one.contains(kFrameHashes); });
+    for (const AuditCheck::File& file : check.files) {
+      if (is_record || file.state == AuditedState::as_written || file.path == own->path) continue;
+      const bool is_frame = is_sequence && lower_case_ending(file.path) == ".png";
+      if (file.state == AuditedState::missing && (is_frame || find_output_format(file.path) == nullptr))
+        audit.beside.push_back(file.path + " is gone: the audit beside it tells of it");
+      else if (is_frame)
+        audit.beside.push_back(file.path + " is not as it was written");
+    }
     return audit;
   } catch (const Error&) {
     return {};
@@ -159,6 +182,7 @@ AskedFilms asked_films(const std::vector<std::string>& paths) {
       if (entry->is_regular_file(code) && lower_case_ending(file) == ".json") add_gone(file, all.list);
       const OutputFormat* format = find_output_format(file);
       if (!entry->is_regular_file(code) || !(is_table(file) || (format != nullptr && format->read_tags != nullptr))) continue;
+      if (lower_case_ending(file) == ".png" && audits.is_further_frame(file)) continue;  // asked with the first
       const std::optional<ClipMemory> memory = memory_in(file);
       // What remembers nothing may be the half of a film that its audit tells of.
       AskedFilm film = is_table(file) || !memory || tells_what_it_shows(*memory) ? asked(file, memory) : AskedFilm{file};

@@ -14,7 +14,7 @@ struct OwnAudit {
   bool is_changed = false;  // the film has other bytes than it says
   std::string folder;       // of the audit
   Json at = nullptr;        // of a picture: its instant, s
-  std::vector<std::string> texts_gone{};  // captions and words that it tells of and that are not there
+  std::vector<std::string> beside{};  // what is wrong with captions, words and further frames that it tells of
 };
 
 struct AskedFilm {

@@ -337,7 +337,7 @@ Today today_of(const AskedFilm& asked, const std::string& scene, const CommonOpt
   Today nearest = *std::min_element(found.begin(), found.end(), [&](const Today& a, const Today& b) { return count(a) < count(b); });
   if (audit.is_changed) nearest.words.insert(nearest.words.begin(), is_other);
   if (!audit.is_changed && has_other_pixels(path)) nearest.words.insert(nearest.words.begin(), kOtherPixels);
-  for (const std::string& text : audit.texts_gone) nearest.words.push_back(text + " is gone: the audit beside it tells of it");
+  nearest.words.insert(nearest.words.end(), audit.beside.begin(), audit.beside.end());
   nearest.again = remaking_of(asked, film, remembered.audit, common);
   nearest.is_far = scene.empty() && !asked.scene.empty() && remembered.audit.value(kShipped, Json()) != Json(true) && lies_elsewhere(path, asked.scene);
   return nearest;
@@ -422,7 +422,7 @@ std::vector<JunitCase> cases_of(const std::vector<Today>& all) {
     if (one.trouble) found.fault = "unknown", found.message = one.trouble->problems().front().message;
     if (!one.trouble && !one.is_same()) {
       found.fault = one.is_gone ? "gone" : "changed";
-      found.message = one.is_gone ? "is gone" : "is not what its scene shows today";
+      found.message = one.is_gone ? "is gone" : one.words.empty() ? "is not what its scene shows today" : one.words.front();
       found.text = joined(one.words.empty() ? one.facts : one.words, "\n") + (one.again.command.empty() ? "" : "\nmade again by: " + shell_line(one.again.command));
     }
     cases.push_back(found);
@@ -477,7 +477,7 @@ void check_of_today(const std::vector<std::string>& paths, const std::string& sc
     if (as_commands) return print_commands(all);
     for (const Today& one : all) print_today(one);
   });
-  if (!junit.empty()) write_junit(junit, junit_text(joined(paths), cases_of(all)));
+  if (!junit.empty()) write_junit(junit, junit_text("check --today", joined(paths), cases_of(all)));
   std::vector<Problem> troubles;
   for (const Today& one : all) {
     if (!one.trouble) continue;

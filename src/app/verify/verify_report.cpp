@@ -114,7 +114,7 @@ std::string junit_text(const SuiteResult& result) {
     }
     cases.push_back(found);
   }
-  return junit_text(result.suite, cases);
+  return junit_text("verify", result.suite, cases);
 }
 
 std::string markdown_text(const SuiteResult& result) {

@@ -184,8 +184,20 @@ std::string sidecar_text(const Sidecar& sidecar, const FilmReport& report) {
   return animate_snippet(sidecar.target, report.frames, report.film().scene.video.fps);
 }
 
-// The files as they lie there, in their order, clips with what is in them; null for sequences.
-// .. and pictures with their instant, s.
+// Of a sequence that begins with this frame; "" where not all of them lie there, as of a part.
+std::string frame_hashes(const std::string& first, int frames) {
+  std::string hashes;
+  for (int k = 0; k < frames; ++k) {
+    const std::string frame = name_of_frame(first, std::size_t(k));
+    std::error_code code;
+    if (!fs::is_regular_file(frame, code)) return "";
+    hashes += sha256_of_file(frame).substr(0, kHashDigits);
+  }
+  return hashes;
+}
+
+// The files as they lie there, in their order, clips with what is in them, pictures with their instant, s, and sequences with
+// the hashes of their frames; null for what is no file.
 Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, const FilmReport& report, double at) {
   Json files = Json::array();
   for (const std::string& path : paths) {
@@ -200,6 +212,8 @@ Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, 
         file.update(clip_facts_of(target, report));
       else if (target.path == path && target.format->shows == Shows::still)
         file["at"] = at;
+    if (std::ranges::any_of(job.targets, [&](const Target& target) { return target.path == path && target.format->is_sequence; }))
+      file[kFrameHashes] = or_null(frame_hashes(path, report.frames));
   }
   return files;
 }

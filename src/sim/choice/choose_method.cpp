@@ -93,6 +93,7 @@ class Chooser {
       if (!runs_.is_stopped()) look_through_methods();
     }
     stay_whole();
+    be_exact_behind();
     if (!choice_.best.setting.method) choice_.best.setting = {&find_method("dop853"), {1e-12, 0}, 0};
     apply(choice_.best.setting, simulation_);
     tell_of_reference();
@@ -254,6 +255,26 @@ class Chooser {
       choice_.counted_until.reset();
       choice_.cost_to_end.reset();
     }
+  }
+
+  // Where the motion is known for a part of the run alone, the cheapest there may lose the rest by more than it has to: an exact
+  // setting goes on, where it costs little.
+  void be_exact_behind() {
+    constexpr double kTolerance = 1e-9;
+    if (reference_.is_whole || !choice_.is_met || has_ended()) return;
+    MethodSetting exact = choice_.best.setting;
+    if (!exact.method->adaptive) exact = {&find_method("dop853"), {}, 0};
+    if (!takes_the_chain(simulation_, *exact.method) || (exact.options.tolerance > 0 && exact.options.tolerance <= kTolerance)) return;
+    exact.options.tolerance = kTolerance;
+    const Trajectory whole = runs_.run(exact, times_, kShareOfCandidate * runs_.budget());
+    if (runs_.is_stopped() || whole.status == RunStatus::out_of_budget) return;
+    const Choice::Candidate candidate = candidate_of(exact, whole);
+    choice_.tried.push_back(candidate);
+    if (!holds(candidate)) return;
+    choice_.remarks.push_back("not the cheapest, " + to_string(choice_.best.setting) + ": as the motion is known for a part of the run alone, the rest is followed as well as may be");
+    choice_.best = candidate;
+    choice_.counted_until.reset();
+    choice_.cost_to_end.reset();
   }
 
   // The best as long as none comes to the end: who would cost the least there at the rate so far.

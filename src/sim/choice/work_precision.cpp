@@ -210,6 +210,60 @@ std::vector<double> instants_of(double duration) {
   return times;
 }
 
+// How far a run goes from step to step: of each coordinate and rate in its own range, the largest; summed up.
+std::vector<double> ways_of(const Trajectory& run) {
+  const auto shares = [&](const auto& row_at) {
+    std::vector<double> low, high;
+    for (int k = 0; k < run.size(); ++k) {
+      const ConstVec row = row_at(k);
+      if (k == 0) low.assign(row.begin(), row.end()), high = low;
+      for (std::size_t i = 0; i < row.size(); ++i) low[i] = std::min(low[i], row[i]), high[i] = std::max(high[i], row[i]);
+    }
+    std::vector<double> moved(std::size_t(run.size()), 0);
+    for (int k = 1; k < run.size(); ++k)
+      for (std::size_t i = 0; i < low.size(); ++i)
+        if (high[i] > low[i]) moved[std::size_t(k)] = std::max(moved[std::size_t(k)], std::abs(row_at(k)[i] - row_at(k - 1)[i]) / (high[i] - low[i]));
+    return moved;
+  };
+  const std::vector<double> q = shares([&](int k) { return run.q_at(k); }), qd = shares([&](int k) { return run.qd_at(k); });
+  std::vector<double> ways(q.size(), 0);
+  for (std::size_t k = 1; k < ways.size(); ++k) ways[k] = ways[k - 1] + std::max(q[k], qd[k]);
+  return ways;
+}
+
+// Where a motion goes far in a small part of the time from one of the usual instants to the next, as a stiff one at its start: behind
+// each such place the next ends of steps of each length.
+std::vector<double> quick_instants(Simulation& simulation, double usual, const StopRequest& stop) {
+  constexpr double kQuick = 0.25;  // of the usual time
+  constexpr long kMostSteps = 200'000;
+  apply({&find_method("dop853"), {1e-6, 0}, 0}, simulation);
+  const Trajectory run = simulate_every_step(simulation, stop);
+  std::vector<double> times;
+  if (run.size() < 2 || run.size() > kMostSteps) return times;
+  const std::vector<double> ways = ways_of(run);
+  double before = 0;
+  for (int k = 1; k < int(kFewestInstants); ++k) {
+    const auto at = std::lower_bound(ways.begin(), ways.end(), ways.back() * k / kFewestInstants) - ways.begin();
+    const double t = run.t[std::size_t(std::min(at, std::ptrdiff_t(run.size()) - 1))], gap = t - before;
+    before = t;
+    if (!(gap < kQuick * usual)) continue;
+    for (const double step : steps_from(usual)) {
+      if (step < 0.5 * gap) break;
+      const double end = std::ceil(t / step * (1 - 1e-12)) * step;
+      if (end < simulation.duration * (1 - 1e-9)) times.push_back(end);
+    }
+  }
+  return times;
+}
+
+// All of both, none twice.
+std::vector<double> merged(std::vector<double> times, const std::vector<double>& others, double duration) {
+  times.insert(times.end(), others.begin(), others.end());
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end(), [&](double a, double b) { return b - a <= 1e-12 * duration; }), times.end());
+  return times;
+}
+
 Trajectory run(Simulation& simulation, const MethodSetting& setting, std::span<const double> times, const StopRequest& stop) {
   constexpr long kMostEvaluations = 20'000'000;  // a minute of a long chain
   apply(setting, simulation);
@@ -265,12 +319,12 @@ std::optional<LadderReference> by_quads(const Simulation& simulation, const std:
 
 // For torques that cannot be had in quadruple precision. Between the instants steps are short enough for dense output to lose nothing; where
 // steps of another length end elsewhere, it shows how little.
-LadderReference by_doubles(Simulation& simulation, const std::vector<double>& times, const StopRequest& stop) {
-  constexpr double kFirstSteps = 0.5, kSecondSteps = 0.31;  // of the distance of instants
+LadderReference by_doubles(Simulation& simulation, const std::vector<double>& times, double usual, const StopRequest& stop) {
+  constexpr double kFirstSteps = 0.5, kSecondSteps = 0.31;  // of the usual distance of instants
   const MethodSetting first{&find_method("dop853"), {1e-14, 0}, 0}, second{&find_method("radau5"), {1e-11, 0}, 0};
   const double longest_step = simulation.longest_step, end[] = {simulation.duration};
   const auto with_steps = [&](double share) {
-    simulation.longest_step = share * times.front();
+    simulation.longest_step = share * usual;
     Trajectory one = run(simulation, first, times, stop);
     simulation.longest_step = longest_step;
     return one;
@@ -291,9 +345,12 @@ LadderReference by_doubles(Simulation& simulation, const std::vector<double>& ti
 
 LadderReference find_reference_run(Simulation& simulation, const StopRequest& stop) {
   const MethodSetting own{simulation.method, simulation.options, simulation.step};
-  const std::vector<double> times = instants_of(simulation.duration);
+  const std::vector<double> regular = instants_of(simulation.duration);
+  const double usual = regular.front();
+  const std::vector<double> times = merged(regular, quick_instants(simulation, usual, stop), simulation.duration);
+  apply(own, simulation);
   const auto quads = by_quads(simulation, times, stop);
-  LadderReference reference = quads ? *quads : by_doubles(simulation, times, stop);
+  LadderReference reference = quads ? *quads : by_doubles(simulation, times, usual, stop);
   reference.run.qd_scale = qd_scale_of(simulation);
   apply(own, simulation);
   return reference;

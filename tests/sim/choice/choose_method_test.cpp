@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -87,6 +88,13 @@ TEST(ChooseMethod, SaysUntilWhenAChaoticMotionCanBeKnown) {
   ASSERT_TRUE(choice.holds_until);
   EXPECT_GT(*choice.holds_until, 1.5);
   EXPECT_LT(*choice.holds_until, 4);
+  // What is cheapest until there would lose the rest sooner than it has to.
+  EXPECT_TRUE(simulation.method->adaptive);
+  EXPECT_LE(simulation.options.tolerance, 1e-9);
+  const double cheapest = std::min_element(choice.tried.begin(), choice.tried.end(), [](const auto& a, const auto& b) {
+                            return (a.trouble.empty() && a.error <= 0.1 ? a.cost : kInfinity) < (b.trouble.empty() && b.error <= 0.1 ? b.cost : kInfinity);
+                          })->cost;
+  EXPECT_GT(choice.best.cost, cheapest);
 }
 
 std::string message_of(Simulation& simulation, const Accuracy& accuracy, double end) {
