@@ -71,6 +71,7 @@ TEST(Meant, SizeAndRateOfASmallClipAreSaid) {
   EXPECT_EQ(clip["height"], 450);
   EXPECT_EQ(clip["fps"], 20);
   EXPECT_EQ(clip["frames"], 4);
+  EXPECT_THAT(run_program({"render", scene, "-o", folder.file("a.gif"), "--force"}).out, HasSubstr("\na           4    0.20")) << "frames of the clip itself";
   const ProgramResult small = run_program({"render", scene, "-o", folder.file("b.gif"), "--set", "video={width: 64, height: 36, fps: 20}"});
   EXPECT_THAT(small.err, Not(HasSubstr("note:"))) << "negative control";
 }

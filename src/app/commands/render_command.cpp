@@ -176,8 +176,11 @@ void run_render(const RenderOptions& options) {
     reports.back()["sidecars"] = result.sidecars;
     reports.back()["small_clips"] = small_clips(jobs[i], films[i], result.frames);
     const double film_seconds = result.part ? frame_time(result.frames, films[i].scene.video.fps) : result.film_seconds;
+    // Where all files are smaller clips, their own.
+    const Json& small = reports.back()["small_clips"];
+    const Json frames = small.size() == jobs[i].targets.size() && !small.empty() ? small[0]["frames"] : Json(result.frames);
     const bool is_still = std::ranges::all_of(jobs[i].targets, [](const Target& target) { return target.format->shows == Shows::still; });
-    table.push_back({films[i].scene.name, is_still ? "1" : std::to_string(result.frames), is_still ? "-" : format_fixed(film_seconds, 2),
+    table.push_back({films[i].scene.name, is_still ? "1" : frames.dump(), is_still ? "-" : format_fixed(film_seconds, 2),
                      format_fixed(result.times.total, 2), joined(result.files, " ")});
   }
   tell_result(options.common, [&] { return Json{{"films", reports}}; }, [&] { std::fputs(table_text(table).c_str(), stdout); });

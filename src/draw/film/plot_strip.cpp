@@ -71,6 +71,16 @@ std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& 
   return plot.curves.size() > 1 ? name + ", " + title : title;
 }
 
+// Whether a run keeps what another one does not: that they differ is what is to be seen.
+bool runs_differ(const StripData& data, double span) {
+  constexpr double kKept = 0.5;  // of the span of all
+  return data.of_runs && std::ranges::any_of(data.curves, [&](const StripCurve& curve) {
+           if (!curve.decides || curve.points.empty()) return false;
+           const auto [low, high] = std::ranges::minmax_element(curve.points, {}, &Point::y);
+           return high->y - low->y < kKept * span;
+         });
+}
+
 // The range of what decides, or of everything where nothing does.
 Axis value_axis(const StripData& data) {
   double low = HUGE_VAL, high = -HUGE_VAL;
@@ -96,8 +106,9 @@ Axis value_axis(const StripData& data) {
   }
   // What hardly changes is seen to hardly change.
   const double span = high - low;
-  if (!data.angles && low > 0 && span < kShareOfSteady * high) low = 0;
-  if (!data.angles && high < 0 && span < kShareOfSteady * -low) high = 0;
+  const bool has_zero = !data.angles && (is_constant || !runs_differ(data, span));
+  if (has_zero && low > 0 && span < kShareOfSteady * high) low = 0;
+  if (has_zero && high < 0 && span < kShareOfSteady * -low) high = 0;
   const double air = kRangeAir * (high - low);
   Axis axis{data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title, {}};
   // Of a constant its number is what is to be read.

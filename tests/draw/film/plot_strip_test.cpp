@@ -56,6 +56,17 @@ TEST(PlotStrip, RunsThatWentWildDoNotDecideOnTheAxis) {
   EXPECT_GT(alone.frame().y.high, 1e7);
 }
 
+// What hardly changes is shown with zero, but where runs differ in that it changes.
+TEST(PlotStrip, WhatOneRunKeepsAndAnotherDoesNotIsSeen) {
+  const Fonts fonts;
+  const auto kept = run_of("a", false, {-20, -20, -20}), drifts = run_of("b", false, {-20, -19.9, -19.7}), alike = run_of("c", false, {-20, -19.7, -20});
+  const auto axis = [&](const std::vector<StripRun>& runs) { return PlotStrip(strip_data(runs, 0, 2, light_theme()), kStripArea, style_of(fonts)).frame().y; };
+  EXPECT_LT(axis({kept, drifts}).high, -19.5);
+  EXPECT_GE(axis({drifts}).high, 0) << "by itself";
+  EXPECT_GE(axis({alike, alike}).high, 0) << "what both do alike";
+  EXPECT_GE(axis({kept, kept}).high, 0);
+}
+
 TEST(PlotStrip, TwoRunsBearTheColoursOfTheirTitlesMoreAreNamed) {
   const auto a = run_of("left", false, {0, 1}), b = run_of("right", false, {1, 0}),
              c = run_of("third", false, {0, 0});
