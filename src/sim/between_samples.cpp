@@ -236,8 +236,8 @@ std::optional<Doubt> doubt_between(const Simulation& simulation, const Trajector
   const std::string& own = plot.curves[worst->curve].name;
   const double share = worst->amount / worst->unit;
   return Doubt{"samples", share,
-               "between the frames " + (own.empty() ? plot.title : own) + " goes " + format_significant(worst->amount, 3) +
-                   " beyond what they show, " + std::to_string(std::lround(100 * share)) + " % of its range, at t = " +
+               "between two frames or rows " + (own.empty() ? plot.title : own) + " goes " + format_significant(worst->amount, 3) +
+                   " beyond both, " + std::to_string(std::lround(100 * share)) + " % of its range, at t = " +
                    format_significant(worst->t, 5) + " s: arrows and tables miss that",
                "--set video.fps=" + std::to_string(rate_for(trajectory)) + ", of a table simulate --every " +
                    format_significant(1000.0 / double(rate_for(trajectory)), 2) + "ms or --every-step"};
