@@ -212,6 +212,13 @@ void OutputFolder::keep_to(int first, int behind) {
   require_ours_replaceable();
 }
 
+std::vector<std::string> OutputFolder::leave_from(long number) {
+  std::vector<std::string> all = names_of_ours();
+  behind_ = std::min(behind_, number);
+  std::erase_if(all, [this](const std::string& name) { return is_ours(name); });
+  return all;
+}
+
 bool OutputFolder::is_ours(const std::string& name) const {
   if (!name.starts_with(stem_) || !name.ends_with(ending_)) return false;
   if (name.size() < stem_.size() + 6 + ending_.size()) return false;

@@ -75,6 +75,9 @@ class OutputFolder {
   // that others write, too.
   void keep_to(int first, int behind);
 
+  // Likewise: those numbered from there on are not this output's and stay. Returns their names.
+  std::vector<std::string> leave_from(long number);
+
   const std::string& temporary_folder() const { return temporary_->path(); }
   // Replaces the old files by the new ones; throws Error (exit 6) where that failed and the old ones are as they were.
   void commit();

@@ -82,6 +82,53 @@ TEST(FilmOfToday, OfASequenceEachFrameIsLookedAt) {
   EXPECT_EQ(run_program({"check", folder.file("out/f.json")}).status, 0);
 }
 
+// Two sequences in one folder have an audit each; of one made in parts frames are missed; files that are merely named like frames are nobody's business.
+TEST(FilmOfToday, SequencesBesideOthersAndInParts) {
+  const TemporaryFolder folder;
+  folder.write("rr.urdf", own_model());
+  const std::string scene = folder.write("s.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 6\nmethod: rk4\nslow_motion: none\nvideo: {width: 160, height: 90, fps: 10}\n");
+  folder.write("out/a_000500.png", "a holiday");
+  const ProgramResult both = run_program({"render", scene, "--set", "duration=0.5", "-o", folder.file("out/a_000000.png"), "-o", folder.file("out/b_000000.png")});
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_THAT(both.err, HasSubstr("a_000500.png is left"));
+  EXPECT_EQ(read_whole_file(folder.file("out/a_000500.png")), "a holiday");
+  fs::remove(folder.file("out/a_000500.png"));
+  const auto asked = [&](const char* where) { return run_program({"check", folder.file(where), "--today"}); };
+  EXPECT_EQ(asked("out").status, 0) << asked("out").out;
+  fs::remove(folder.file("out/b_000003.png"));
+  EXPECT_THAT(asked("out").out, HasSubstr("b_000003.png is gone"));
+  // Fewer frames: those that the audit told of go.
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "--set", "duration=0.3", "-o", folder.file("out/a_000000.png"), "-o", folder.file("out/b_000000.png")}).status, 0);
+  EXPECT_FALSE(fs::exists(folder.file("out/a_000004.png")));
+  EXPECT_EQ(asked("out").status, 0) << asked("out").out;
+  for (const char* part : {"0:20", "20:60"}) ASSERT_EQ(run_program({"render", scene, "--quiet", "--frames", part, "-o", folder.file("parts/p_000000.png")}).status, 0);
+  const ProgramResult whole = asked("parts");
+  EXPECT_EQ(whole.status, 0) << whole.out << whole.err;
+  EXPECT_THAT(whole.err, Not(HasSubstr("not asked about")));
+  fs::remove(folder.file("parts/p_000022.png"));
+  EXPECT_THAT(asked("parts").out, HasSubstr("p_000022.png is gone"));
+}
+
+// A still or table whose name none of several clips has is told of by the first of their audits; what is empty or cut off is not passed over.
+TEST(FilmOfToday, EachFileOfACommandIsToldOf) {
+  const TemporaryFolder folder;
+  folder.write("rr.urdf", own_model());
+  const std::string scene = folder.write("s.yaml", "model: rr.urdf\nstart: {q: [1, 0]}\nduration: 0.5\nmethod: rk4\nvideo: {width: 160, height: 90, fps: 10}\n");
+  ASSERT_EQ(run_program({"render", scene, "--quiet", "--set", "duration=0.3", "-o", folder.file("out/swing.mp4"), "-o", folder.file("out/web.gif"), "-o", folder.file("out/slide.svg"),
+                         "-o", folder.file("out/rows.csv")}).status, 0);
+  const auto asked = [&] { return run_program({"check", folder.file("out"), "--today"}); };
+  const ProgramResult same = asked();
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  EXPECT_THAT(same.out, AllOf(HasSubstr("slide.svg"), HasSubstr("rows.csv"), HasSubstr("web.gif"), HasSubstr("swing.mp4")));
+  folder.write("rr.urdf", heavier(own_model()));
+  EXPECT_THAT(asked().out, AllOf(HasSubstr("slide.svg is NOT"), HasSubstr("rows.csv is NOT")));
+  folder.write("rr.urdf", own_model());
+  folder.write("out/empty.png", "");
+  const ProgramResult broken = asked();
+  EXPECT_EQ(broken.status, 3);
+  EXPECT_THAT(broken.err, HasSubstr("empty.png: is "));
+}
+
 // Pictures without an audit: scenes of the name that they remember are looked for, models of figures, too; and what is not known is said.
 TEST(FilmOfToday, FindsWhatPicturesWithoutAuditsShow) {
   const TemporaryFolder folder;

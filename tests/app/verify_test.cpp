@@ -457,6 +457,9 @@ TEST_F(Verify, TakesAFolderOfScenes) {
   EXPECT_THAT(baselines("films/snapshots"), Contains(testing::Key("a.png")));
   EXPECT_EQ(verify({}, "films").status, 0);
 
+  fs::copy(folder_.path() / "films", folder_.path() / "cloned", fs::copy_options::recursive);
+  EXPECT_EQ(verify({}, "cloned").status, 0) << "under another name";
+
   // One that cannot be read fails by itself.
   replace("films/b.yaml", "method: rk4", "metod: rk4");
   const Json results = this->results({}, "films");

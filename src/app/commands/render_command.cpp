@@ -167,6 +167,7 @@ void run_render(const RenderOptions& options) {
         reports.back().update(files_json({}));
         print_json({{"films", reports}});
       }
+      if (i + 1 < films.size()) std::fprintf(stderr, "note: %s fails, and the %zu behind it are not rendered\n", films[i].scene.name.c_str(), films.size() - i - 1);
       throw;
     }
     reports.push_back(result.audit);

@@ -140,7 +140,7 @@ class FilmsOfGrid {
         throw_if_interrupted();
         // Neither disk nor renderer will be better for the next one.
         if (error.code() == ExitCode::file || error.code() == ExitCode::no_renderer) throw;
-        has_failed(run, error.problems().front().message);
+        has_failed(run, error);
       }
       const std::lock_guard guard(lock_);
       if (ticker.is_due())
@@ -257,9 +257,10 @@ class FilmsOfGrid {
     for (const std::string& warning : warnings) tell_warnings({joined(grid_.settings(run), " ") + ": " + warning});
   }
 
-  void has_failed(std::size_t run, const std::string& why) {
+  void has_failed(std::size_t run, const Error& error) {
     const std::lock_guard guard(lock_);
-    const std::string line = joined(grid_.settings(run), " ") + ": " + why;
+    const std::string line = joined(grid_.settings(run), " ") + ": " + error.problems().front().message;
+    if (error.code() == ExitCode::limit) ++outcome_.failed_by_limits;
     if (outcome_.failed++ < kMostTold) std::fprintf(stderr, "%s\n", line.c_str());
     if (outcome_.failed == 1) outcome_.first_failure = line;
   }

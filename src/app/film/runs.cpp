@@ -219,7 +219,7 @@ void require_expected_end(const Trajectory& trajectory, const Scene& scene) {
     std::string limits;
     for (std::size_t i = 0; i < std::min(passed.size(), kTold); ++i) limits += (i == 0 ? "" : "; ") + to_string(passed[i]);
     if (passed.size() > kTold) limits += "; and " + std::to_string(passed.size() - kTold) + " more";
-    throw Error(ExitCode::limit, limits + ": `expect: within_limits` stands there", scene.place_of("expect"));
+    throw Error(ExitCode::limit, limits + ": `expect: within_limits` stands there (--set expect=finish shows the run)", scene.place_of("expect"));
   }
   throw Error(ExitCode::numerical,
               trajectory.trouble + " with " + method_text(scene) + remedy_of(trajectory, scene),

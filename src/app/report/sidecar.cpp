@@ -68,6 +68,23 @@ Json audited_file(const std::string& path) {
   return {{"file", fs::path(path).filename().string()}, {"bytes", hashed.bytes}, {"sha256", hashed.sha256}};
 }
 
+std::string frame_hashes(const std::string& first, int frames) {
+  std::string hashes;
+  for (int k = 0; k < frames; ++k) {
+    const std::string frame = name_of_frame(first, std::size_t(k));
+    std::error_code code;
+    if (!fs::is_regular_file(frame, code)) return "";
+    hashes += sha256_of_file(frame).substr(0, kHashDigits);
+  }
+  return hashes;
+}
+
+std::size_t frames_told(const Json& entry) {
+  const bool is_sequence = entry.is_object() && entry.contains(kFrameHashes) && entry.contains("frames") && entry["frames"].is_number_unsigned();
+  constexpr std::size_t kMost = 10'000'000;  // an audit may be changed by hand
+  return is_sequence ? std::min(kMost, entry["frames"].get<std::size_t>()) : 1;
+}
+
 std::string name_of_frame(const std::string& first, std::size_t k) {
   const std::string ending = ".png", digits = std::to_string(k), zeros = "000000";
   const std::size_t end = first.size() - std::min(first.size(), ending.size() + zeros.size());
@@ -97,6 +114,16 @@ Json audit_beside(const std::string& file) {
   } catch (const Error&) {
     return Json();
   }
+}
+
+std::size_t frames_told_at(const std::string& path, const std::string& first) {
+  try {
+    for (const Json& one : audited_files_of(audit_at(path)))
+      if (one.is_object() && one.value("file", "") == fs::path(first).filename().string()) return frames_told(one);
+  } catch (const std::exception&) {
+    // No audit that can be read.
+  }
+  return 0;
 }
 
 OtherFiles others_audited(const std::string& path, const std::vector<std::string>& files, const Json& audit) {

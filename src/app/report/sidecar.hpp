@@ -32,6 +32,12 @@ Json audited_file(const std::string& path);
 // Of a sequence, whose first frame the audit names, the beginnings of the hashes of all its frames, kHashDigits each, under this key.
 inline constexpr const char* kFrameHashes = "frames_sha256";
 inline constexpr std::size_t kHashDigits = 16;
+// Of all frames from the first on; "" where not all of them lie there, as of a part.
+std::string frame_hashes(const std::string& first, int frames);
+// How many frames such an entry tells of; 1 of what is no sequence.
+std::size_t frames_told(const Json& entry);
+// How many the audit at `path` tells of the sequence that begins with `first`; 0 where it tells nothing of it.
+std::size_t frames_told_at(const std::string& path, const std::string& first);
 // The name of frame k, where `first` is that of frame 0, NAME_000000.png.
 std::string name_of_frame(const std::string& first, std::size_t k);
 // What an audit says of its files; [] where it is none.

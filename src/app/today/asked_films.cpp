@@ -13,6 +13,7 @@
 #include "app/report/audit_check.hpp"
 #include "app/report/sidecar.hpp"
 #include "core/error.hpp"
+#include "encode/cut_off.hpp"
 
 namespace chainreel {
 namespace {
@@ -56,8 +57,7 @@ class AuditsOfFolders {
       if (lower_case_ending(path) != ".json") continue;
       for (const Json& one : audited_files_of(audit_beside(path))) {
         found.tellers[word_of(one, "file")].push_back(path);
-        const std::string hashes = one.is_object() ? word_of(one, kFrameHashes) : "";
-        for (std::size_t k = 1; (k + 1) * kHashDigits <= hashes.size(); ++k) found.frames.insert(name_of_frame(word_of(one, "file"), k));
+        for (std::size_t k = 1; k < frames_told(one); ++k) found.frames.insert(name_of_frame(word_of(one, "file"), k));
       }
     }
   }
@@ -186,7 +186,8 @@ AskedFilms asked_films(const std::vector<std::string>& paths) {
       const std::optional<ClipMemory> memory = memory_in(file);
       // What remembers nothing may be the half of a film that its audit tells of.
       AskedFilm film = is_table(file) || !memory || tells_what_it_shows(*memory) ? asked(file, memory) : AskedFilm{file};
-      if (film.audit.json.is_object() || !film.scene.empty())
+      film.is_broken = !memory && !film.audit.json.is_object() && (is_cut_off(file) || entry->file_size(code) == 0);
+      if (film.is_broken || film.audit.json.is_object() || !film.scene.empty())
         all.list.push_back(std::move(film));
       else
         all.passed_over.push_back(file);
@@ -200,6 +201,7 @@ AskedFilms asked_films(const std::vector<std::string>& paths) {
 }
 
 std::string scene_behind(const AskedFilm& film) {
+  if (film.is_broken) throw Error(ExitCode::bad_input, "is empty or cut off, and no audit beside it tells what it showed: make it again", {film.path});
   if (!film.scene.empty()) return film.scene;
   const auto refuse = [&](const std::string& why) { throw Error(ExitCode::bad_input, why + ": name it, --scene SCENE.yaml", {film.path}); };
   if (!film.audit.json.is_object())

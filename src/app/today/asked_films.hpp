@@ -21,6 +21,7 @@ struct AskedFilm {
   std::string path;
   OwnAudit audit{};
   bool is_gone = false;     // the audit tells of it, and it is not there
+  bool is_broken = false;   // empty or cut off, and no audit tells of it: it is nobody's picture, and was one
   std::string scene{};      // where no audit tells of it, the one of the name that it remembers
   Json set = nullptr;       // likewise, what --set changed, as pictures of `snapshot` remember; null: nobody knows
 };

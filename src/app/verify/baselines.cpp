@@ -50,7 +50,7 @@ std::string folder_of(const Suite& suite) {
 // its own.
 std::string identity_of(const Suite& suite) {
   const fs::path path = path_of(suite);
-  return printable(path.filename().string()) + (fs::is_directory(path) ? "/" : "");  // a name may be no text
+  return fs::is_directory(path) ? "./" : printable(path.filename().string());  // a name may be no text; a folder may get another one
 }
 
 // A record of ours: 16 hexadecimal digits and .json.

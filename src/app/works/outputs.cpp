@@ -1,10 +1,12 @@
 #include "app/works/outputs.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/cli/streams.hpp"
 #include "app/report/motion_table.hpp"
 #include "app/report/sidecar.hpp"
+#include "core/format.hpp"
 
 namespace chainreel {
 namespace fs = std::filesystem;
@@ -40,6 +42,18 @@ std::vector<Output> open_outputs(const std::vector<Target>& targets, std::size_t
     outputs.push_back(std::move(output));
   }
   return outputs;
+}
+
+std::vector<std::string> leave_foreign_frames(std::vector<Output>& outputs, int frames) {
+  std::vector<std::string> notes;
+  for (Output& output : outputs) {
+    if (!output.folder) continue;
+    const std::size_t known = frames_told_at(base_of(output.target) + ".json", output.target.path);
+    const std::vector<std::string> left = output.folder->leave_from(std::max(long(frames), long(known)));
+    if (!left.empty())
+      notes.push_back("named like further frames of " + output.target.path + ", but none of its: " + shortened(joined(left), 200) + (left.size() == 1 ? " is" : " are") + " left");
+  }
+  return notes;
 }
 
 std::vector<std::string> commit(std::vector<Output>& outputs) {

@@ -32,6 +32,10 @@ std::string base_of(const Target& target);
 // `is_part`: sequences hold frames of others, too. Throws Error (exit 6) where one of them cannot be written.
 std::vector<Output> open_outputs(const std::vector<Target>& targets, std::size_t panels, bool overwrite, bool is_part);
 
+// Files that are named like further frames of a sequence, and of which no audit of it tells, are somebody's and stay, which is what the
+// notes say. Before commit().
+std::vector<std::string> leave_foreign_frames(std::vector<Output>& outputs, int frames);
+
 // Gives all of them their names, and tells these in the order of the targets.
 std::vector<std::string> commit(std::vector<Output>& outputs);
 // Films and tables of a run that failed, as far as they came, under a .partial name.

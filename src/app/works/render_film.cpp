@@ -184,18 +184,6 @@ std::string sidecar_text(const Sidecar& sidecar, const FilmReport& report) {
   return animate_snippet(sidecar.target, report.frames, report.film().scene.video.fps);
 }
 
-// Of a sequence that begins with this frame; "" where not all of them lie there, as of a part.
-std::string frame_hashes(const std::string& first, int frames) {
-  std::string hashes;
-  for (int k = 0; k < frames; ++k) {
-    const std::string frame = name_of_frame(first, std::size_t(k));
-    std::error_code code;
-    if (!fs::is_regular_file(frame, code)) return "";
-    hashes += sha256_of_file(frame).substr(0, kHashDigits);
-  }
-  return hashes;
-}
-
 // The files as they lie there, in their order, clips with what is in them, pictures with their instant, s, and sequences with
 // the hashes of their frames; null for what is no file.
 Json audited_files(const RenderJob& job, const std::vector<std::string>& paths, const FilmReport& report, double at) {
@@ -291,11 +279,19 @@ OtherAudits others_kept(std::vector<Sidecar>& sidecars, const RenderJob& job, co
   return audits;
 }
 
-// Whether NAME.json is the one that tells of the file: by its name, or as the only one there is.
+// Whether NAME.json is the one that tells of the file: by its name, or of a file that none has the name of as the first in its folder.
 bool tells_of(const std::vector<Sidecar>& sidecars, const std::string& audit, const std::string& file) {
-  const auto is_audit = [](const Sidecar& sidecar) { return sidecar.what == Sidecar::audit; };
-  return fs::path(file).replace_extension(".json") == fs::path(audit) || fs::path(file + ".json") == fs::path(audit) ||
-         (std::count_if(sidecars.begin(), sidecars.end(), is_audit) == 1 && fs::path(file).parent_path() == fs::path(audit).parent_path());
+  const auto is_named = [&](const std::string& one) {
+    const auto is_its = [&](const std::string& name) { return fs::path(name) == fs::path(one); };
+    return is_its(fs::path(file).replace_extension(".json").string()) || is_its(file + ".json") ||
+           std::ranges::any_of(sidecars, [&](const Sidecar& sidecar) { return sidecar.target.path == file && is_its(base_of(sidecar.target) + ".json"); });
+  };
+  if (is_named(audit)) return true;
+  std::vector<std::string> beside;
+  for (const Sidecar& sidecar : sidecars)
+    if (sidecar.what == Sidecar::audit && (is_named(sidecar.file->path()) || fs::path(sidecar.file->path()).parent_path() == fs::path(file).parent_path()))
+      beside.push_back(sidecar.file->path());
+  return std::ranges::none_of(beside, is_named) && !beside.empty() && beside.front() == audit;
 }
 
 // What an audit says first of frames, rate and size is of the first clip among those that it tells of; without one it stays
@@ -388,11 +384,11 @@ namespace {
 std::optional<Error> unexpected_end(const Runs& runs) {
   try {
     runs.require_expected_ends();
+    return {};
   } catch (const Error& error) {
     if (error.code() != ExitCode::numerical && error.code() != ExitCode::limit) throw;  // a signal
     return error;
   }
-  return {};
 }
 
 }  // namespace
@@ -446,11 +442,10 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
 
   const std::optional<Error> trouble = unexpected_end(runs);
   const auto fail = [&] {
-    if (job.unfinished != nullptr) *job.unfinished = result;
+    if (job.unfinished) *job.unfinished = result;
     throw Error(*trouble);
   };
-  // Of a run that was lost the film until then is kept; one beyond its limits is none.
-  if (trouble && trouble->code() == ExitCode::limit) fail();
+  if (trouble && trouble->code() == ExitCode::limit) fail();  // of a run that was lost the film until then is kept
 
   FrameRange range{0, result.frames};
   std::string part;
@@ -490,6 +485,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     forget_chunks(outputs, range, total_frames);
     fail();
   }
+  if (!is_part) std::ranges::move(leave_foreign_frames(outputs, result.frames), std::back_inserter(result.notes));
   const OtherAudits others = others_kept(sidecars, job, scene, outputs, result);
   tell(report, job, result);
   if (job.tells) tell_warnings(others.lost);

@@ -54,13 +54,6 @@ void draw_arc(Picture& picture, const PageTurn& turn, double radius, double from
   picture.add(std::move(path), clip);
 }
 
-void draw_dashed(Picture& picture, Point a, Point b, double width, Color color, int clip) {
-  const double dash = 0.007, length = norm(b - a);
-  const Point along = unit(b - a);
-  for (double at = 0; at < length; at += 2 * dash)
-    draw_line(picture, {a + at * along, a + std::min(at + dash, length) * along}, width, color, clip);
-}
-
 double coordinate(const Shot& shot, const Joint& joint) {
   return shot.panel.motion().trajectory().q_at(shot.k)[std::size_t(joint.q_index)];
 }
@@ -108,7 +101,7 @@ class Angles : public Layer {
     const double angle = q - whole * std::trunc(q / whole), sign = angle < 0 ? -1 : 1;
     const double marks = shot.panel.marks(), radius = marks * kAngleRadius;
     const int clip = shot.panel.clip();
-    draw_dashed(picture, turn.center, turn.at(marks * kZeroReach, 0), kAngleLine, color(), clip);
+    draw_dashed_line(picture, {turn.center, turn.at(marks * kZeroReach, 0)}, kAngleLine, color(), clip);
     const double head = std::min(marks * kAngleHead / radius, std::abs(angle));
     if (std::abs(angle) > 0) draw_arc(picture, turn, radius, 0, angle - 0.8 * sign * head, kAngleLine, color(), clip);
     const Point tip = turn.at(radius, angle), base = turn.at(radius, angle - sign * head);

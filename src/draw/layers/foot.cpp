@@ -1,6 +1,6 @@
 // A foot on the ground and what the ground answers: an arrow that ends at the centre of pressure, which is marked, as long as
 // the force. It stands below the ground, along the line on which the force acts, where no leg hides it. Beyond the foot, where no ground could push, it is dashed; where the ground had to pull, there is
-// none. Then words say that the foot is held.
+// none. Then words say that the foot is held. A plumb line from the centre of mass shows where that stands beside the foot.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +10,7 @@
 #include "draw/layers/layer.hpp"
 #include "draw/page/arrow.hpp"
 #include "draw/page/sheet.hpp"
+#include "draw/robot/chain.hpp"
 #include "draw/robot/joints.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/torques_along.hpp"
@@ -24,6 +25,7 @@ constexpr double kHeldOff = 0.045;     // units of H: of the words that the foot
 constexpr double kDepths[] = {0.05, 0.08, 0.12};  // units of H, below the ground
 constexpr double kBesideArrow = 0.03;  // units of H
 constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
+constexpr double kPlumbLine = 0.0025;  // units of H
 
 // A run's foot, and what the ground answers at its samples.
 struct FootRun {
@@ -81,6 +83,7 @@ class FootLayer : public Layer {
         page_(&stage.page),
         held_(words(stage, "foot held: a real one turns")),
         short_(words(stage, "foot held")),
+        names_center_(stage.shows("com") && stage.shows("legend")),
         arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
     for (const StagedRun& motion : stage.motions)
       if (is_of(motion) && motion.has_foot()) runs_.emplace(&motion, motion);
@@ -93,6 +96,7 @@ class FootLayer : public Layer {
   void write(SheetText& text) const override {
     constexpr double kLegend = 0.045;  // units of H, at most
     if (!weight_) return;
+    if (!names_center_) text.scales.push_back({ScaleEntry::Mark::center_of_mass, 0, theme_->ink, "centre of mass", kAfterScales});
     const double force = round_length(kLegend / arrow_ * *weight_);
     text.scales.push_back({ScaleEntry::Mark::arrow, arrow_ * force / *weight_, theme_->constraint,
                            "ground reaction " + format_shortest(force) + " N", kAfterVectors, true});
@@ -138,6 +142,7 @@ class FootLayer : public Layer {
     const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(shot.k, 0, int(run.answers.size()) - 1))];
     const Camera& camera = panel.camera();
     const bool stands = answer.is_shown && answer.place >= run.foot.heel && answer.place <= run.foot.toe;
+    draw_plumb_line(picture, run, shot);
     if (shot.k >= run.held_from && !is_transparent(*page_)) add_held(run, camera, shot.labels);
     if (!answer.is_shown) return;
     const Point force = (arrow_ / camera.scale) * camera.project_vector(answer.force, camera.focus);
@@ -152,6 +157,15 @@ class FootLayer : public Layer {
  private:
   static TextLine words(const Stage& stage, const char* text) {
     return lay_out_text(stage.fonts, text, {Face::label, scaled(size::kAxis, stage.page.text_scale), stage.theme.muted, Align::left});
+  }
+
+  static void draw_plumb_line(Picture& picture, const FootRun& run, const Shot& shot) {
+    const Panel& panel = shot.panel;
+    const Eigen::Vector3d center = center_of_mass(panel.chain(), shot.ws);
+    const Eigen::Vector3d below = center - (center.dot(run.ground.up) - run.foot.height) * run.ground.up;
+    const ChainLook& look = panel.look();
+    draw_dashed_line(picture, {panel.camera().project(center), panel.camera().project(below)}, look.marks * kPlumbLine, look.theme->ink, panel.clip());
+    draw_center_of_mass(picture, panel.camera().project(center), look, panel.clip());
   }
 
   // A real foot would tip or rise there; this one is fixed to the ground.
@@ -175,6 +189,7 @@ class FootLayer : public Layer {
   const Theme* theme_;
   const Scene* page_;
   TextLine held_, short_;  // short_: where there is no room for all
+  bool names_center_;  // another layer does
   double arrow_;  // units of H: the weight's
   std::map<const StagedRun*, FootRun> runs_;
   std::optional<double> weight_;  // N, of the first run

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "draw/layers/layer.hpp"
+#include "draw/robot/chain.hpp"
 #include "draw/robot/joints.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
@@ -132,19 +133,6 @@ void FrameAxes::draw(Picture& picture, const Shot& shot) const {
       }
     }
   }
-}
-
-// The centre of mass of the whole chain after compute_kinematics; the origin where nothing has mass.
-Vector3d center_of_mass(const Chain& chain, const Workspace& ws) {
-  Vector3d moment = Vector3d::Zero();
-  double mass = 0;
-  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
-    const Inertia& inertia = chain.bodies[b].inertia;
-    moment += inertia.mass * (pose_of(ws, int(b)) * inertia.com);
-    mass += inertia.mass;
-  }
-  if (mass > 0) moment /= mass;
-  return moment;
 }
 
 class CenterOfMass : public Layer {

@@ -285,6 +285,18 @@ bool hangs_on_root(const Chain& chain, const Skeleton& skeleton, const Body& bod
   return (body.joint.X_PJ.translation() - root_place(chain)).norm() <= 1e-3 * skeleton.reach;
 }
 
+Eigen::Vector3d center_of_mass(const Chain& chain, const Workspace& ws) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double mass = 0;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Inertia& inertia = chain.bodies[b].inertia;
+    moment += inertia.mass * (pose_of(ws, int(b)) * inertia.com);
+    mass += inertia.mass;
+  }
+  if (mass > 0) moment /= mass;
+  return moment;
+}
+
 Vector3d tip_position(const Chain& chain, const Workspace& ws) {
   return frame_position(chain, ws, chain.end_effector);
 }

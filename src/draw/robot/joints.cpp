@@ -16,6 +16,13 @@ void draw_line(Picture& picture, PageLine line, double width, Color color, int c
   picture.add(Capsule{line.a, line.b, width / 2, {color, {}, 0}}, clip);
 }
 
+void draw_dashed_line(Picture& picture, PageLine line, double width, Color color, int clip) {
+  const double dash = 0.007, length = norm(line.b - line.a);
+  const Point along = unit(line.b - line.a);
+  for (double at = 0; at < length; at += 2 * dash)
+    draw_line(picture, {line.a + at * along, line.a + std::min(at + dash, length) * along}, width, color, clip);
+}
+
 void draw_revolute(Picture& picture, Point center, const ChainLook& look, int clip) {
   const double r = look.joint_disc / 2, dot = size::kJointDot / 2 * look.joint_disc / size::kJointDisc;
   const Color ink = toned(look.theme->ink, look);

@@ -107,6 +107,8 @@ struct PageLine {
 };
 
 void draw_line(Picture& picture, PageLine line, double width, Color color, int clip);
+// Dashes from its beginning on.
+void draw_dashed_line(Picture& picture, PageLine line, double width, Color color, int clip);
 void draw_revolute(Picture& picture, Point center, const ChainLook& look, int clip);
 // How far the end of a drawn link reaches from the place that it ends in.
 inline double link_end(const ChainLook& look) { return (look.link_width + look.stroke * size::kLinkOutline) / 2; }

@@ -258,9 +258,10 @@ class Chooser {
   }
 
   // Where the motion is known for a part of the run alone, the cheapest there may lose the rest by more than it has to: an exact
-  // setting goes on, where it costs little.
+  // setting goes on, where it costs little. A finer one than this would stand still where ways cross, as at change points of loops,
+  // and leave on that of its own rounding.
   void be_exact_behind() {
-    constexpr double kTolerance = 1e-9;
+    constexpr double kTolerance = 1e-6;
     if (reference_.is_whole || !choice_.is_met || has_ended()) return;
     MethodSetting exact = choice_.best.setting;
     if (!exact.method->adaptive) exact = {&find_method("dop853"), {}, 0};
@@ -271,7 +272,7 @@ class Chooser {
     const Choice::Candidate candidate = candidate_of(exact, whole);
     choice_.tried.push_back(candidate);
     if (!holds(candidate)) return;
-    choice_.remarks.push_back("not the cheapest, " + to_string(choice_.best.setting) + ": as the motion is known for a part of the run alone, the rest is followed as well as may be");
+    choice_.remarks.push_back("the cheapest is " + to_string(choice_.best.setting) + ", but the motion is known for a part of the run alone, and the rest is followed more closely");
     choice_.best = candidate;
     choice_.counted_until.reset();
     choice_.cost_to_end.reset();

@@ -47,6 +47,19 @@ bool ends_step(double t, double step) {
   return std::abs(steps - std::round(steps)) < kOfStep;
 }
 
+constexpr double kGross = 0.01;  // of the motion
+
+// How far the coordinate goes that goes farthest.
+double range_of(const ReferenceRun& reference) {
+  double widest = 0;
+  for (std::size_t i = 0; i < reference.q_at(0).size(); ++i) {
+    double low = kInfinity, high = -kInfinity;
+    for (std::size_t k = 0; k < reference.t.size(); ++k) low = std::min(low, reference.q_at(k)[i]), high = std::max(high, reference.q_at(k)[i]);
+    widest = std::max(widest, high - low);
+  }
+  return widest;
+}
+
 // `run`: sampled at the reference's instants.
 void find_errors(const Trajectory& run, const ReferenceRun& reference, Rung& rung) {
   constexpr StateError kFailed{kInfinity, kInfinity, kInfinity};
@@ -56,10 +69,12 @@ void find_errors(const Trajectory& run, const ReferenceRun& reference, Rung& run
     rung.way = kFailed;
     return;
   }
+  // What a film shows between the ends of steps may not be another motion.
+  const double gross = kGross * range_of(reference);
   for (int k = 0; k < run.size(); ++k) {
     const bool is_end = k + 1 == run.size();
-    if (!is_end && rung.setting.step > 0 && !ends_step(run.t[std::size_t(k)], rung.setting.step)) continue;
     const double q = apart(run.q_at(k), reference.q_at(std::size_t(k))), qd = apart(run.qd_at(k), reference.qd_at(std::size_t(k)));
+    if (!is_end && rung.setting.step > 0 && !ends_step(run.t[std::size_t(k)], rung.setting.step) && !(q > gross)) continue;
     rung.final = {q, qd, std::max(q, reference.qd_scale * qd)};
     rung.way = {std::max(rung.way.q, q), std::max(rung.way.qd, qd), std::max(rung.way.size, rung.final.size)};
   }

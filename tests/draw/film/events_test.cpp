@@ -66,8 +66,36 @@ TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {
   };
   EXPECT_GT(shapes(&simulation_, 60), shapes(nullptr, 60)) << "negative control: nothing to compute it from";
   // At the end the fixed foot is pulled down: no ground does that.
-  const std::size_t words_and_halo = 2;
-  EXPECT_EQ(shapes(&simulation_, run_.size() - 1), shapes(nullptr, run_.size() - 1) + words_and_halo);
+  const Color force = theme_named("light").constraint;
+  const auto forces = [&](int k) {
+    const Picture frame = film(&simulation_).frame(k);
+    const std::vector<Ellipse> discs = test::all_of<Ellipse>(frame);
+    return std::ranges::count_if(discs, [&](const Ellipse& disc) { return disc.paint.stroke == force; });
+  };
+  EXPECT_EQ(forces(60), 1);
+  EXPECT_EQ(forces(run_.size() - 1), 0);
+}
+
+// Its line ends on the ground below the centre of mass: within the foot at the start, ahead of it in the end.
+TEST_F(FallingHuman, APlumbLineFallsFromTheCentreOfMass) {
+  scene_.draw = {"chain"};
+  const Film film = this->film(&simulation_);
+  const double ground = [&] {
+    double y = 0;
+    for (const Ellipse& disc : test::all_of<Ellipse>(film.frame(60)))
+      if (disc.paint.stroke == theme_named("light").constraint) y = disc.center.y;
+    return y;
+  }();
+  std::vector<double> places;
+  for (const int k : {0, run_.size() - 1}) {
+    std::optional<Capsule> lowest;
+    for (const Capsule& dash : test::all_of<Capsule>(film.frame(k)))
+      if (dash.paint.fill == theme_named("light").ink && std::abs(dash.a.x - dash.b.x) < 1e-9 && (!lowest || dash.b.y < lowest->b.y)) lowest = dash;
+    ASSERT_TRUE(lowest);
+    EXPECT_NEAR(lowest->b.y, ground, 0.008) << "to the ground, but for a gap of the dashes";
+    places.push_back(lowest->b.x);
+  }
+  EXPECT_GT(places[1], places[0] + 0.1);
 }
 
 // Where a real foot would tip the picture says that this one is held, and nowhere else.

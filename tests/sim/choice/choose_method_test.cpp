@@ -90,7 +90,7 @@ TEST(ChooseMethod, SaysUntilWhenAChaoticMotionCanBeKnown) {
   EXPECT_LT(*choice.holds_until, 4);
   // What is cheapest until there would lose the rest sooner than it has to.
   EXPECT_TRUE(simulation.method->adaptive);
-  EXPECT_LE(simulation.options.tolerance, 1e-9);
+  EXPECT_LE(simulation.options.tolerance, 1e-6);
   const double cheapest = std::min_element(choice.tried.begin(), choice.tried.end(), [](const auto& a, const auto& b) {
                             return (a.trouble.empty() && a.error <= 0.1 ? a.cost : kInfinity) < (b.trouble.empty() && b.error <= 0.1 ? b.cost : kInfinity);
                           })->cost;
