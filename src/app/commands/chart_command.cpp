@@ -172,7 +172,7 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
           "\n# amplification: " + format_significant(measured.reference.amplification, 3) +
           "\n# error: the larger of error_q and error_qd x " + format_significant(measured.reference.run.qd_scale, 6) +
           " s, at the end of the run; way_error, of way_q and way_qd: the largest at " + std::to_string(measured.reference.run.t.size()) +
-          " instants along the run, of fixed steps at those at which one ends, and at all where q is off by a hundredth of the motion; energy_error: the largest at the end of any step\n";
+          " instants along the run, of fixed steps at those at which one ends, and at all where q is off by a tenth of the motion; energy_error: the largest at the end of any step\n";
   text +=
       "method,order,step [s],tolerance,runs,median_seconds [s],steps,evaluations,error,error_q,error_qd,"
       "way_error,way_q,way_qd,energy_error [J],status\n";

@@ -446,7 +446,6 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
     throw Error(*trouble);
   };
   if (trouble && trouble->code() == ExitCode::limit) fail();  // of a run that was lost the film until then is kept
-
   FrameRange range{0, result.frames};
   std::string part;
   if (is_part) {

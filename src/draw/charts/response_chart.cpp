@@ -92,7 +92,8 @@ Picture response_chart(const ResponseChart& data, const ChartLook& look) {
   draw_edges(picture, frame, data, look);
   std::vector<EndLabel> ends;
   for (std::size_t i = 0; i < data.curves.size(); ++i) {
-    const CurveStyle look_of_curve = curve_style(int(i), *look.theme, look.text_scale);
+    CurveStyle look_of_curve = curve_style(int(i), *look.theme, look.text_scale);
+    if (i < look.theme->curve.size()) look_of_curve.color = look.theme->curve[i];  // a house style's
     draw_points(picture, frame, data.curves[i], look_of_curve, *look.theme);
     const auto& points = data.curves[i].points;
     const auto last = std::find_if(points.rbegin(), points.rend(), [](const ResponsePoint& point) { return point.y.has_value(); });

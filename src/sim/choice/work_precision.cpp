@@ -47,7 +47,7 @@ bool ends_step(double t, double step) {
   return std::abs(steps - std::round(steps)) < kOfStep;
 }
 
-constexpr double kGross = 0.01;  // of the motion
+constexpr double kGross = 0.1;  // of the motion
 
 // How far the coordinate goes that goes farthest.
 double range_of(const ReferenceRun& reference) {

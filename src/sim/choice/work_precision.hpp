@@ -37,7 +37,7 @@ struct StateError {
 
 struct Rung {
   MethodSetting setting;
-  StateError way;           // the largest at the reference's instants, of fixed steps at those at which one ends, and at all where q is off by a hundredth of the motion
+  StateError way;           // the largest at the reference's instants, of fixed steps at those at which one ends, and at all where q is off by a tenth of the motion
   StateError final;         // at the end
   double energy_error = 0;  // J, the largest at the end of any step
   double seconds = 0;       // median of the runs, nothing sampled but the end
