@@ -20,7 +20,7 @@ constexpr double kOffConstraints = 1e-4;
 class InverseWalk {
  public:
   InverseWalk(const Chain& chain, const ConstraintPlan& plan, const std::string& file, InverseAlong& result)
-      : chain_(chain), plan_(plan), file_(file), result_(result), limits_(chain), ws_(chain), q_(std::size_t(chain.nv)), qd_(q_), qdd_(q_) {
+      : chain_(chain), plan_(plan), file_(file), result_(result), limits_(chain), ws_(chain), q_(std::size_t(chain.nv)), qd_(q_), qdd_(q_), tau_(q_) {
     if (plan.empty()) return;
     set_ = std::make_unique<ConstraintSet>(chain, plan.list);
     cws_ = std::make_unique<ConstrainedWorkspace>(chain, *set_);
@@ -35,7 +35,6 @@ class InverseWalk {
     else
       compute_inverse_dynamics(chain_, ws_, q_, qd_, qdd_);
     compute_friction(chain_, ws_, qd_);
-    std::vector<double> all(q_.size());
     for (std::size_t i = 0; i < q_.size(); ++i) {
       const double tau = ws_.tau[i] + ws_.tau_f[i];
       if (!std::isfinite(tau))
@@ -43,15 +42,16 @@ class InverseWalk {
                     "the torque tau" + std::to_string(i + 1) + " at t = " + format_shortest(t) +
                         " s is no finite number: the motion in this row is too fast for numbers",
                     {file_, line});
-      all[i] = tau;
+      tau_[i] = tau;
     }
-    result_.tau.insert(result_.tau.end(), all.begin(), all.end());
-    const double told = result_.t[result_.tau.size() / all.size() - 1];
+    result_.tau.insert(result_.tau.end(), tau_.begin(), tau_.end());
+    const double told = result_.t[result_.tau.size() / tau_.size() - 1];
     limits_.check_state(told, q_, qd_);
-    limits_.check_effort(told, all, false);
-    result_.limits = limits_.events();
+    limits_.check_effort(told, tau_, false);
     result_.lambda.insert(result_.lambda.end(), lambda_.begin(), lambda_.end());
   }
+
+  const std::vector<LimitEvent>& limits() const { return limits_.events(); }
 
  private:
   void press(int line) {
@@ -91,7 +91,7 @@ class InverseWalk {
   Workspace ws_;
   std::unique_ptr<ConstraintSet> set_;  // null: none
   std::unique_ptr<ConstrainedWorkspace> cws_;
-  std::vector<double> q_, qd_, qdd_, lambda_;
+  std::vector<double> q_, qd_, qdd_, tau_, lambda_;
 };
 
 }  // namespace
@@ -102,6 +102,7 @@ InverseAlong inverse_along(const Chain& chain, const ConstraintPlan& constraints
   result.t = motion.told_instants();
   InverseWalk walk(chain, constraints, motion.table().file, result);
   for (std::size_t k = 0; k < motion.rows(); ++k) walk.add(motion, motion.instant(k), motion.table().lines[k]);
+  result.limits = walk.limits();
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/input_file.hpp"
+#include "encode/png.hpp"
 
 namespace chainreel {
 namespace {
@@ -86,9 +87,8 @@ std::size_t frames_told(const Json& entry) {
 }
 
 std::string name_of_frame(const std::string& first, std::size_t k) {
-  const std::string ending = ".png", digits = std::to_string(k), zeros = "000000";
-  const std::size_t end = first.size() - std::min(first.size(), ending.size() + zeros.size());
-  return first.substr(0, end) + (digits.size() < zeros.size() ? zeros.substr(digits.size()) : "") + digits + ending;
+  const std::size_t behind_stem = PngSequence::file_name("", 0).size();
+  return PngSequence::file_name(first.substr(0, first.size() - std::min(first.size(), behind_stem)), int(k));
 }
 
 Json clip_facts(int width, int height, FrameRate fps, int frames) {
