@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <span>
 
@@ -22,23 +23,22 @@ constexpr double kLargestText = 1 << 13;  // px per em
 constexpr int kMostCells = 4096;           // along a side: Mesa takes textures of 8192 and more
 constexpr int kCorners = 8;
 
-// 64 bits of what has been added: different for what differs, but by a chance of 2^-64.
+// 64 bits of what has been added: different for what differs, but by a chance of about 2^-64. Words go in by pairs, as the
+// halves of a product of 128 bits that are laid on one another (folded multiplication, as wyhash has it).
 class Look {
  public:
-  void add(std::uint64_t word) {
-    state_ = (state_ ^ word) * 0x9E3779B97F4A7C15u;
-    state_ = (state_ ^ (state_ >> 32)) * 0xD6E8FEB86659FD93u;
-    state_ ^= state_ >> 29;
+  void add(std::uint64_t word, std::uint64_t other = 0) {
+    __extension__ using Product = unsigned __int128;
+    const Product product = Product(word ^ 0x9E3779B97F4A7C15u) * (other ^ state_);
+    state_ = std::uint64_t(product) ^ std::uint64_t(product >> 64) ^ 0xD6E8FEB86659FD93u;
   }
   void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
   void add(const PixelBox& box) {
-    add(std::uint64_t(std::uint32_t(box.x)) << 32 | std::uint32_t(box.y));
-    add(std::uint64_t(std::uint32_t(box.width)) << 32 | std::uint32_t(box.height));
+    add(pair(std::uint32_t(box.x), std::uint32_t(box.y)), pair(std::uint32_t(box.width), std::uint32_t(box.height)));
   }
-  void add(std::span<const float> numbers) {
-    for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
-      add(std::uint64_t(std::bit_cast<std::uint32_t>(numbers[i])) << 32 |
-          std::bit_cast<std::uint32_t>(numbers[i + 1]));
+  void add(std::span<const float> numbers) {  // a multiple of four
+    const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint32_t>(numbers[i]); };
+    for (std::size_t i = 0; i + 3 < numbers.size(); i += 4) add(pair(bits(i), bits(i + 1)), pair(bits(i + 2), bits(i + 3)));
   }
   void add(std::span<const std::uint8_t> bytes) {
     for (std::size_t i = 0; i + 3 < bytes.size(); i += 4)
@@ -48,6 +48,8 @@ class Look {
   std::uint64_t value() const { return state_; }
 
  private:
+  static std::uint64_t pair(std::uint32_t high, std::uint32_t low) { return std::uint64_t(high) << 32 | low; }
+
   std::uint64_t state_ = 0x2545F4914F6CDD1Du;
 };
 
@@ -142,7 +144,10 @@ Piece& Batch::append(Primitive primitive, const Outline& outline, std::initializ
   const auto size = std::size_t(4 * kPrimitives[std::size_t(primitive)].vectors);
   std::vector<float>& stream = streams_[std::size_t(primitive)];
   Piece piece{.primitive = primitive, .instance = int(stream.size() / size), .outline = outline};
-  for (const Vector& v : vectors) stream.insert(stream.end(), {v.x, v.y, v.z, v.w});
+  static_assert(sizeof(Vector) == 4 * sizeof(float));
+  const std::size_t start = stream.size();
+  stream.resize(start + size);
+  std::memcpy(&stream[start], vectors.begin(), size * sizeof(float));
   Look look;
   look.add(std::uint64_t(primitive));
   look.add(clip_);

@@ -1,27 +1,45 @@
 #include "render/changes.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <bit>
 #include <vector>
 
 namespace chainreel {
 namespace {
 
-// Where in a list of pieces each look is.
+// Where in a list of pieces each look is: a table at most half full, in which the looks, evenly spread numbers, are their own
+// hashes. Made when it is first asked, as most pieces follow one another as they did.
 class Places {
  public:
-  explicit Places(const std::vector<Piece>& pieces) {
-    for (const Piece& piece : pieces) sorted_.emplace_back(piece.look, int(sorted_.size()));
-    std::sort(sorted_.begin(), sorted_.end());
-  }
+  explicit Places(const std::vector<Piece>& pieces) : pieces_(pieces) {}
+
   // The first from there on, or -1.
-  int of(std::uint64_t look, int from) const {
-    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(look, from));
-    return found != sorted_.end() && found->first == look ? found->second : -1;
+  int of(std::uint64_t look, int from) {
+    if (slots_.empty()) fill();
+    int place = slots_[slot_of(look)];
+    while (place >= 0 && place < from) place = next_[std::size_t(place)];
+    return place;
   }
 
  private:
-  std::vector<std::pair<std::uint64_t, int>> sorted_;
+  void fill() {
+    slots_.assign(std::bit_ceil(2 * pieces_.size() + 1), -1);
+    next_.assign(pieces_.size(), -1);
+    for (int i = int(pieces_.size()); i-- > 0;) {  // each is put before those behind it that look like it
+      int& first = slots_[slot_of(pieces_[std::size_t(i)].look)];
+      next_[std::size_t(i)] = first;
+      first = i;
+    }
+  }
+  // Of that look, or the free one where it would be.
+  std::size_t slot_of(std::uint64_t look) const {
+    std::size_t slot = look & (slots_.size() - 1);
+    while (slots_[slot] >= 0 && pieces_[std::size_t(slots_[slot])].look != look) slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+
+  const std::vector<Piece>& pieces_;
+  std::vector<int> slots_, next_;
 };
 
 // Calls visit(column, row, whether all of it is inside of the shape) for the tiles that a shape may colour.
@@ -51,7 +69,7 @@ class Difference {
   // Equal pieces are paired in order; what lies between two pairs differs.
   void mark() {
     const std::vector<Piece>&a = before_.pieces(), &b = now_.pieces();
-    const Places places(a);
+    Places places(a);
     int next_a = 0, next_b = 0;
     for (int i = 0; i < int(b.size()); ++i) {
       const std::uint64_t look = b[std::size_t(i)].look;

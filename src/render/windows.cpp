@@ -27,7 +27,9 @@ class WindowParts {
 
   void find() {
     const PixelBox& box = outline_.box;
-    if ((outline_.kind == Outline::Kind::box || box.width * box.height < kSmall) && are_all_marked()) return some_.add(box);
+    const Marked marked = how_many();
+    if (marked == Marked::none) return;
+    if ((outline_.kind == Outline::Kind::box || box.width * box.height < kSmall) && marked == Marked::all) return some_.add(box);
     const int height = outline_.kind == Outline::Kind::box ? TileMask::kSide : kStrip;
     for (int top = box.y; top < box.bottom();) {
       const int bottom = std::min(box.bottom(), (top / height + 1) * height);
@@ -37,12 +39,15 @@ class WindowParts {
   }
 
  private:
-  bool are_all_marked() const {
+  enum class Marked { none, some, all };
+
+  // Of the tiles that its box meets.
+  Marked how_many() const {
     const TileRange range = tiles_.tiles_of(outline_.box);
+    bool any = false, all = true;
     for (int row = range.top; row < range.bottom; ++row)
-      for (int column = range.left; column < range.right; ++column)
-        if (!tiles_.at(column, row)) return false;
-    return true;
+      for (int column = range.left; column < range.right; ++column) (tiles_.at(column, row) ? any : all) = tiles_.at(column, row);
+    return all ? Marked::all : any ? Marked::some : Marked::none;
   }
 
   void add_strip(int top, int bottom) {
