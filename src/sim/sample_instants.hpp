@@ -48,6 +48,9 @@ class SampleInstants {
     around_.push_back(t + beside_);
   }
 
+  // It is looked at at t, later than all that is known of.
+  void look_at(double t) { around_.push_back(t); }
+
   bool has_samples() const { return next_ < times_.size(); }
 
  private:

@@ -27,6 +27,7 @@ namespace {
 // A coordinate or rate beyond this has left every machine that could be drawn.
 constexpr double kDivergenceBound = 1e9;  // rad, m, rad/s, m/s
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kLongStep = 4;          // of the distance of instants between samples: curves show where longer steps end
 constexpr double kBesideCorner = 1e-5;    // of the distance of instants between samples
 constexpr double kMostNumbers = 2.5e8;    // stored in one trajectory: 2 GB
 constexpr double kNumbersThatFit = 1e7;   // everywhere
@@ -464,6 +465,7 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
   while (!run.at_end() && !run.ended_early() && !run.stop_requested(stop) && run.take_step()) {
     const double end = run.end_time() + same_instant(simulation);
     if (run.stands_at_break()) instants.corner_at(run.now());
+    if (between > 0 && simulation.step > kLongStep * between) instants.look_at(run.end_time());
     while (const auto instant = instants.next(end)) instant->is_sample ? run.sample(instant->t) : run.sample_between(instant->t);
     if (run.ended_early()) {
       if (instants.has_samples()) run.sample_event();

@@ -127,12 +127,15 @@ TEST(Simulate, SamplesBetweenStepsToFourthOrder) {
     }
 }
 
-TEST(Simulate, BetweenEulersStepsIsAShorterStepOfTheSameMethod) {
+// Explicit Euler by a shorter step of its own; semi-implicit Euler evenly from end to end, as a shorter step of it goes beyond both.
+TEST(Simulate, BetweenEulersStepsIsWhatTheMethodSaysOfThem) {
   constexpr double kStep = 0.02;
   for (const char* method : {"explicit_euler", "semi_implicit_euler"}) {
+    const bool is_even = std::string_view(method) == "semi_implicit_euler";
     const auto start = [&] { return run_of("rr", {"3", "-q2"}, 1, method, kStep); };
     const Simulation run = start();
     const Trajectory all = simulate_every_step(run);
+    double apart = 0;  // of the two ways
     for (const double share : {0.25, 0.6}) {
       for (const int k : {0, 7, 40}) {
         const double t[] = {(k + share) * kStep};
@@ -142,11 +145,18 @@ TEST(Simulate, BetweenEulersStepsIsAShorterStepOfTheSameMethod) {
         shorter.step = shorter.duration = share * kStep;
         const Trajectory inside = simulate(run, t), own = simulate_every_step(shorter);
         for (std::size_t i = 0; i < 2; ++i) {  // the length of the step is rounded: 1e-15 of rates of some 10
-          EXPECT_NEAR(inside.q_at(0)[i], own.q_at(1)[i], 1e-13) << method << k;
+          const double even = (1 - share) * all.q_at(k)[i] + share * all.q_at(k + 1)[i];
+          EXPECT_NEAR(inside.q_at(0)[i], is_even ? even : own.q_at(1)[i], 1e-13) << method << k;
           EXPECT_NEAR(inside.qd_at(0)[i], own.qd_at(1)[i], 1e-13) << method << k;
+          apart = std::max(apart, std::abs(even - own.q_at(1)[i]));
         }
       }
     }
+    // Negative control: share (1 - share) h^2 of accelerations of some 10 lies between.
+    if (is_even)
+      EXPECT_GT(apart, 1e-4);
+    else
+      EXPECT_LT(apart, 1e-13);
   }
 }
 

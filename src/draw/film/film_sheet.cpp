@@ -45,11 +45,14 @@ void leave_out_unknown(std::vector<double>& t, std::vector<double>& y) {
   y = std::move(values);
 }
 
+constexpr double kSeenStep = 0.006;  // of the clip: dots at the ends of such steps stand apart
+
 // What the plots of the page show of a run; its simulation must be there. The work, and so what is wrong with the energy, is known
 // at its samples alone.
 StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story) {
   const Trajectory& run = motion.curve_run();
   StripRun strip{motion.title(), motion.is_wild(), {}, story};
+  if (motion.simulation() && motion.simulation()->step >= kSeenStep * run.t.back()) strip.step = motion.simulation()->step;
   if (story.empty() && motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.curve_samples());
   strip.times.assign(strip.plots.size(), std::vector<double>(run.t.begin(), run.t.begin() + motion.curve_samples()));
   for (std::size_t i = 0; i < strip.plots.size(); ++i)

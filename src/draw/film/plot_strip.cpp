@@ -21,6 +21,8 @@ constexpr double kRangeAir = 0.06;        // of the range, above and below
 constexpr double kShareOfSteady = 0.2;    // of its size: what changes by less is shown with zero
 constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
 constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
+constexpr double kStepMark = 0.009;  // units of H, across
+constexpr double kSameEnd = 1e-6;    // of a step: its end
 constexpr double kRoundTime = 0.1;    // s: a clip ends at a multiple that its last frame nearly reaches
 
 // Curves are told apart by place, or by the run they belong to.
@@ -130,10 +132,20 @@ Axis time_axis(double end) {
   return {Scale::linear, 0, round - end < kLongestFrame ? round : end, "", "s"};
 }
 
-void draw_part(Picture& picture, const PlotFrame& frame, std::span<const Point> points, CurveStyle style,
-               const Theme& theme, double opacity) {
+bool is_multiple(double t, double step) {
+  return std::abs(t - step * std::round(t / step)) <= kSameEnd * step;
+}
+
+// The first `count` points, and where steps end.
+void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve, std::size_t count, const Theme& theme, double opacity) {
+  const std::span points = std::span(curve.points).first(count);
+  CurveStyle style = curve.style;
   style.color = style.color.faded(opacity);
   draw_curve(picture, frame, points, style, theme);
+  if (curve.step <= 0) return;
+  for (const Point& p : points)
+    if (is_multiple(p.x, curve.step) && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
+      draw_marker(picture, frame.at(p), Marker::disc, kStepMark, style.color, theme.background);
 }
 
 }  // namespace
@@ -162,7 +174,7 @@ void PlotStrip::draw_static(Picture& picture) const {
   draw_axes(picture, frame_, style_);
   std::vector<EndLabel> ends;
   for (const StripCurve& curve : data_.curves) {
-    draw_part(picture, frame_, curve.points, curve.style, *style_.theme, kPale);
+    draw_part(picture, frame_, curve, curve.points.size(), *style_.theme, kPale);
     const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [](const Point& p) { return std::isfinite(p.y); });
     if (curve.label.empty() || last == curve.points.rend()) continue;
     const Point end = frame_.at(*last);
@@ -176,8 +188,7 @@ void PlotStrip::draw_frame(Picture& picture, double t) const {
   for (const StripCurve& curve : data_.curves) {
     const auto end = std::upper_bound(curve.points.begin(), curve.points.end(), t,
                                       [](double now, const Point& p) { return now < p.x; });
-    const auto count = std::size_t(end - curve.points.begin());
-    draw_part(picture, frame_, std::span(curve.points).first(count), curve.style, *style_.theme, 1);
+    draw_part(picture, frame_, curve, std::size_t(end - curve.points.begin()), *style_.theme, 1);
   }
   draw_cursor(picture, frame_, std::clamp(t, frame_.x.low, frame_.x.high), style_.theme->ink);
 }
@@ -198,7 +209,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     if (sum_alone) shown.curves = {plot.curves.back()};
     for (std::size_t c = 0; c < shown.curves.size(); ++c) {
       StripCurve curve{
-          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild};
+          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild, run.step};
       const std::vector<double>& y = shown.curves[c].y;
       const std::vector<double>& t = run.times[i];
       for (std::size_t k = 0; k < std::min(y.size(), t.size()); ++k) curve.points.push_back({t[k], y[k]});

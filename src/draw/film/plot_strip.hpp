@@ -15,6 +15,7 @@ struct StripCurve {
   CurveStyle style;
   std::vector<Point> points;  // (t, y), t rising
   bool decides = true;        // on the range of the axis; curves of runs that went wild do not
+  double step = 0;            // s: points at its multiples are marked; 0: none
 };
 
 struct StripData {
@@ -49,6 +50,7 @@ struct StripRun {
   bool wild = false;
   std::vector<std::vector<double>> times;  // s, of each plot's points
   std::vector<PlotCurves> plots;
+  double step = 0;  // s, of a run whose steps are seen one by one
 };
 
 // Plot i of all runs in one; with several runs colours tell runs apart, dashes what is plotted.
