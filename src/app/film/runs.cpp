@@ -1,6 +1,7 @@
 #include "app/film/runs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "app/cli/streams.hpp"
@@ -165,11 +166,21 @@ int Runs::frames_shown(int frames) const {
   return shown;
 }
 
+namespace {
+
+// s, by the method that was chosen.
+double promised_until(const PreparedScene& panel) {
+  if (!panel.choice) return HUGE_VAL;
+  return panel.choice->is_met ? panel.choice->holds_until.value_or(HUGE_VAL) : 0;
+}
+
+}  // namespace
+
 std::vector<PanelRun> Runs::panels() const {
   std::vector<PanelRun> panels;
   for (std::size_t i = 0; i < list_.size(); ++i)
     panels.push_back({film_.panels[i].scene, film_.panels[i].simulation.chain, list_[i],
-                      &film_.panels[i].simulation, film_.panels[i].shapes.get()});
+                      &film_.panels[i].simulation, film_.panels[i].shapes.get(), promised_until(film_.panels[i])});
   return panels;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "sim/audit.hpp"
+#include "sim/doubts.hpp"
 
 namespace chainreel {
 namespace {
@@ -52,7 +54,12 @@ constexpr double kSeenStep = 0.006;  // of the clip: dots at the ends of such st
 StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story) {
   const Trajectory& run = motion.curve_run();
   StripRun strip{motion.title(), motion.is_wild(), {}, story};
-  if (motion.simulation() && motion.simulation()->step >= kSeenStep * run.t.back()) strip.step = motion.simulation()->step;
+  strip.accurate_until = motion.accurate_until();
+  if (const Simulation* simulation = motion.simulation()) {
+    if (simulation->step >= kSeenStep * run.t.back()) strip.step = simulation->step;
+    const Trajectory& whole = motion.trajectory();
+    if (whole.energy_at_steps && doubt_of_energy(*simulation, whole, audit_of(*simulation, whole), {})) strip.energy_off = whole.energy_at_steps->signed_error;
+  }
   if (story.empty() && motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.curve_samples());
   strip.times.assign(strip.plots.size(), std::vector<double>(run.t.begin(), run.t.begin() + motion.curve_samples()));
   for (std::size_t i = 0; i < strip.plots.size(); ++i)

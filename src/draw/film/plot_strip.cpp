@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/format.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -21,6 +23,7 @@ constexpr double kRangeAir = 0.06;        // of the range, above and below
 constexpr double kShareOfSteady = 0.2;    // of its size: what changes by less is shown with zero
 constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
 constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
+constexpr double kNoteGap = 0.02;
 constexpr double kStepMark = 0.009;  // units of H, across
 constexpr double kSameEnd = 1e-6;    // of a step: its end
 constexpr double kRoundTime = 0.1;    // s: a clip ends at a multiple that its last frame nearly reaches
@@ -171,7 +174,9 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
 }
 
 void PlotStrip::draw_static(Picture& picture) const {
+  if (data_.accurate_until < frame_.x.high) draw_zone(picture, frame_, {data_.accurate_until, frame_.y.low}, {frame_.x.high, frame_.y.high}, style_.theme->grid);
   draw_axes(picture, frame_, style_);
+  draw_note(picture);
   std::vector<EndLabel> ends;
   for (const StripCurve& curve : data_.curves) {
     draw_part(picture, frame_, curve, curve.points.size(), *style_.theme, kPale);
@@ -184,6 +189,15 @@ void PlotStrip::draw_static(Picture& picture) const {
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
 }
 
+// Beside the title of the vertical axis, or not at all.
+void PlotStrip::draw_note(Picture& picture) const {
+  if (data_.note.empty()) return;
+  const TextLine title = lay_out_words(*style_.fonts, data_.title, {Face::label, style_.text(size::kAxis), style_.theme->ink});
+  const TextLine note = lay_out_words(*style_.fonts, data_.note, {Face::label, style_.text(size::kTick), style_.theme->muted, Align::right});
+  const double from = area_.x0 + title.advance + kNoteGap;
+  if (frame_.box.x1 - note.advance >= from) draw_text(picture, note, {frame_.box.x1, frame_.box.y1 + title_above_frame(style_)});
+}
+
 void PlotStrip::draw_frame(Picture& picture, double t) const {
   for (const StripCurve& curve : data_.curves) {
     const auto end = std::upper_bound(curve.points.begin(), curve.points.end(), t,
@@ -192,6 +206,19 @@ void PlotStrip::draw_frame(Picture& picture, double t) const {
   }
   draw_cursor(picture, frame_, std::clamp(t, frame_.x.low, frame_.x.high), style_.theme->ink);
 }
+
+namespace {
+
+void add_doubts(const StripRun& run, PlotQuantity quantity, StripData& data) {
+  if (run.accurate_until < data.end) {
+    data.accurate_until = run.accurate_until;
+    data.note = "accurate until " + format_significant(run.accurate_until, 3) + " s";
+  } else if (run.energy_off != 0 && quantity == PlotQuantity::energy) {
+    data.note = "total off by " + format_significant(std::abs(run.energy_off), 2) + " J";
+  }
+}
+
+}  // namespace
 
 StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double end, const Theme& theme) {
   StripData data;
@@ -202,6 +229,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     if (i >= run.plots.size()) continue;
     const PlotCurves& plot = run.plots[i];
     data.title = title_with_symbol(plot);
+    if (!data.of_runs) add_doubts(run, plot.quantity, data);
     data.angles = plot.angles;
     // A comparison shows the sum of energies alone.
     const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;

@@ -2,6 +2,7 @@
 // and a cursor at now.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct StripData {
   std::vector<StripCurve> curves;
   bool of_runs = false;  // several: a curve is a run's
   double end = 0;        // of the clip, s
+  double accurate_until = HUGE_VAL;  // s: what is plotted behind it nobody promises
+  std::string note{};                // above the frame, at its right end, where it has room
 };
 
 class PlotStrip {
@@ -38,6 +41,8 @@ class PlotStrip {
   void narrow_to(double x0, double x1) { frame_.box.x0 = x0, frame_.box.x1 = x1; }
 
  private:
+  void draw_note(Picture& picture) const;
+
   StripData data_;
   Rect area_;
   PlotStyle style_;
@@ -51,6 +56,8 @@ struct StripRun {
   std::vector<std::vector<double>> times;  // s, of each plot's points
   std::vector<PlotCurves> plots;
   double step = 0;  // s, of a run whose steps are seen one by one
+  double accurate_until = HUGE_VAL;  // s
+  double energy_off = 0;             // J: what a run makes or loses of it that no one should take for motion
 };
 
 // Plot i of all runs in one; with several runs colours tell runs apart, dashes what is plotted.

@@ -1,6 +1,7 @@
 // What a film shows, before anyone knows from where: the motions of its runs, and what all of them share.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,6 +27,7 @@ struct PanelRun {
   const Trajectory& trajectory;
   const Simulation* simulation = nullptr;  // needed where torques or constraint forces are shown
   const BodyShapes* shapes = nullptr;      // drawn instead of bars
+  double accurate_until = HUGE_VAL;        // s: until when its method promises what was asked for
 };
 
 // Pages that have no room for plots beside the scene: what they show stands one above the other.
@@ -59,6 +61,7 @@ class StagedRun {
   const Trajectory& trajectory() const { return run_.trajectory; }
   const Simulation* simulation() const { return run_.simulation; }
   const BodyShapes* shapes() const { return run_.shapes; }
+  double accurate_until() const { return run_.accurate_until; }
   bool is_constrained() const { return run_.simulation && !run_.simulation->constraints.empty(); }
   bool has_foot() const { return run_.simulation && run_.simulation->events && run_.simulation->events->foot; }
   const std::string& title() const { return title_; }  // of the scene, with what it says of this run
