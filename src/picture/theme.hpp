@@ -46,7 +46,7 @@ inline constexpr double kScaleBar = 0.0035, kEllipseLine = 0.0042, kEllipseAxis 
 inline constexpr double kTrailHead = 0.0050, kTrailTail = 0.0015, kTrailDot = 0.006;
 inline constexpr double kArrowShaft = 0.0060, kArrowHead = 0.024, kArrowHeadWidth = 0.018;
 inline constexpr double kLongestArrow = 0.20, kArrowCut = 0.25, kShortestArrow = 0.003;
-inline constexpr double kTorqueArc = 0.058, kBesideRail = 0.034, kDash = 0.012, kDashGap = 0.008;
+inline constexpr double kTorqueArc = 0.058, kBesideRail = 0.034, kBeforePushed = 0.012, kDash = 0.012, kDashGap = 0.008;
 inline constexpr double kCenterOfMass = 0.022;
 inline constexpr double kFrameLine = 0.0018;  // about a panel
 inline constexpr double kMarkToText = 0.014;  // in a legend

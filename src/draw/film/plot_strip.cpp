@@ -41,7 +41,8 @@ CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, 
   if (curve < theme.curve.size()) style.color = theme.curve[curve];
   if (plot.quantity == PlotQuantity::energy && curve + 1 == plot.curves.size())
     return {theme.ink, theme.lines * kTotalLine, Dash::solid, Marker::none};
-  if (plot.quantity == PlotQuantity::lambda && plot.curves.size() == 1) style.color = theme.constraint;
+  const bool is_of_constraint = plot.quantity == PlotQuantity::lambda || plot.title.find("lambda") != std::string::npos;
+  if (is_of_constraint && plot.curves.size() == 1) style.color = theme.constraint;  // as its arrow
   return style;
 }
 

@@ -31,6 +31,7 @@ constexpr int kMostLabels = 4;         // of weights
 constexpr int kMostTorqueLabels = 6;
 constexpr double kArcOfLink = 0.32;    // an arc's radius at most, of the shortest link
 constexpr double kSmallestArc = 0.5;   // of the size that arcs have elsewhere
+constexpr double kAlongLink = 0.1;     // cosine of the largest angle from a force to the link that it pushes
 constexpr double kLabelledArc = 0.53;  // between smaller ones there is no room for words
 
 // The vectors of a motion at sample k, after compute_kinematics there.
@@ -254,8 +255,32 @@ std::string word_of(const Reaction& reaction, int all_rows) {
   return all_rows == 1 ? "-lambda" : "-lambda_{" + numbers + "}";
 }
 
+// The reactions of a run at its samples, and the frames that one row alone pushes towards their links in all of the clip.
+struct ReactionRun {
+  std::vector<std::vector<Reaction>> at;
+  std::vector<int> pushed;
+};
+
+ReactionRun reactions_of(const StagedRun& motion) {
+  const Chain& chain = motion.chain();
+  ReactionRun run{reactions_along(*motion.simulation(), motion.trajectory()), {}};
+  if (rounding_of(chain, run.at)) return {};
+  std::map<int, bool> pushes;
+  for (int k = 0; k < std::min(motion.samples(), int(run.at.size())); ++k) {
+    const Workspace& ws = motion.pose_at(k);
+    for (const Reaction& one : run.at[std::size_t(k)]) {
+      const Vector3d to_joint = ws.X_WB[std::size_t(chain.frames[std::size_t(one.frame)].body)].translation() - frame_position(chain, ws, one.frame);
+      const bool along = one.rows.size() == 1 && one.force.dot(to_joint) > kAlongLink * one.force.norm() * to_joint.norm();
+      pushes.emplace(one.frame, true).first->second &= along || one.force.isZero();
+    }
+  }
+  for (const auto& [frame, always] : pushes)
+    if (always) run.pushed.push_back(frame);
+  return run;
+}
+
 std::vector<WorldVector> reactions_at(const Chain& chain, const Workspace& ws,
-                                      const std::vector<Reaction>& reactions, int all_rows) {
+                                      const std::vector<Reaction>& reactions, const std::vector<int>& pushed, int all_rows) {
   std::vector<Reaction> at_frames;  // what pulls at one place is one force
   for (const Reaction& one : reactions) {
     const auto same = std::find_if(at_frames.begin(), at_frames.end(), [&](const Reaction& other) { return other.frame == one.frame; });
@@ -267,9 +292,11 @@ std::vector<WorldVector> reactions_at(const Chain& chain, const Workspace& ws,
     same->rows.insert(same->rows.end(), one.rows.begin(), one.rows.end());
   }
   std::vector<WorldVector> vectors;
-  for (const Reaction& one : at_frames)
+  for (const Reaction& one : at_frames) {
     vectors.push_back({VectorKind::constraint, frame_position(chain, ws, one.frame), one.force, Vector3d::Zero(), Vector3d::Zero(),
                        word_of(one, all_rows)});
+    vectors.back().pushes = std::ranges::find(pushed, one.frame) != pushed.end();
+  }
   return vectors;
 }
 
@@ -339,18 +366,11 @@ std::unique_ptr<const Layer> make_layer_velocity(const Stage& stage) {
 std::unique_ptr<const Layer> make_layer_constraint_force(const Stage& stage) {
   return std::make_unique<VectorLayer>(
       stage, "constraint_force",
-      [forces = along_runs<std::vector<std::vector<Reaction>>>(
-           stage,
-           [](const StagedRun& motion) {
-             std::vector<std::vector<Reaction>> reactions = reactions_along(*motion.simulation(), motion.trajectory());
-             if (rounding_of(motion.chain(), reactions)) reactions.clear();
-             return reactions;
-           })](
-          const StagedRun& motion, const Workspace& ws, int k) {
+      [forces = along_runs<ReactionRun>(stage, reactions_of)](const StagedRun& motion, const Workspace& ws, int k) {
         const auto own = forces.find(&motion);
-        return own == forces.end() || own->second.empty()
+        return own == forces.end() || own->second.at.empty()
                    ? std::vector<WorldVector>()
-                   : reactions_at(motion.chain(), ws, own->second[std::size_t(k)], motion.trajectory().rows);
+                   : reactions_at(motion.chain(), ws, own->second.at[std::size_t(k)], own->second.pushed, motion.trajectory().rows);
       },
       always(VectorKind::constraint));
 }

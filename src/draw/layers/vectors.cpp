@@ -222,6 +222,7 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
     if (side.y < -1e-9 || (std::abs(side.y) <= 1e-9 && side.x < 0)) side = -1 * side;
     arrow.shift = (marks * size::kBesideRail) * side;
   }
+  if (vector.pushes && length > 0) arrow.shift = -(1 + marks * size::kBeforePushed / length) * arrow.v;
   return arrow;
 }
 

@@ -36,6 +36,7 @@ struct WorldVector {
   double ring = 0;  // of a torque: opacity of the ring which says that it rests
   double size = 1;  // of a torque's arc: less where links are short on the page
   double most = std::numeric_limits<double>::infinity();  // of a torque, N m: over the clip; decides where its word stands
+  bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
 };
 
 // What an arrow on the page is worth.
