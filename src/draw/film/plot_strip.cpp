@@ -20,7 +20,7 @@ constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a co
 constexpr double kConstantSpan = 1e-6, kShareOfConstant = 0.5;  // of its size, of what the eye takes for one; of other plots' height
 constexpr std::size_t kMostOnConstant = 2;  // names of curves that have room beside so low a plot
 constexpr double kRangeAir = 0.06;        // of the range, above and below
-constexpr double kShareOfSteady = 0.2;    // of its size: what changes by less is shown with zero
+constexpr double kShareOfSteady = 0.35;   // of its size: what changes by less is shown with zero
 constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
 constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
 constexpr double kNoteGap = 0.02;

@@ -192,7 +192,7 @@ class TorqueRun {
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
   double most(int freedom) const { return most_[std::size_t(freedom)]; }
   bool is_labelled() const { return labelled_; }
-  std::string word(int freedom) const { return "tau_{" + std::to_string(freedom + 1) + "}"; }
+  std::string word(int freedom) const { return nv_ == 1 ? "tau" : "tau_{" + std::to_string(freedom + 1) + "}"; }
 
  private:
   std::size_t nv_;

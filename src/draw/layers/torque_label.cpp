@@ -236,6 +236,23 @@ std::string resistance_notation(const Chain& chain) {
   return notation;
 }
 
+namespace {
+
+// "tau_1 = (8 - qd_1) N m" where all others are zero; "" where they are not, or it is no joint's alone.
+std::string only_entry(const Chain& chain, const std::vector<std::string>& entries) {
+  const auto is_zero = [](const std::string& entry) { return parse_number(entry) == 0.0; };
+  if (entries.size() < 2 || std::ranges::count_if(entries, is_zero) + 1 != std::ptrdiff_t(entries.size())) return "";
+  const auto place = std::ranges::find_if_not(entries, is_zero) - entries.begin();
+  for (const Body& body : chain.bodies) {
+    if (body.joint.v_index != int(place) || (body.joint.kind != JointKind::revolute && body.joint.kind != JointKind::prismatic)) continue;
+    const std::string& entry = entries[std::size_t(place)];
+    return "tau_" + std::to_string(place + 1) + " = " + (parse_number(entry) ? entry : "(" + entry + ")") + (body.joint.kind == JointKind::revolute ? " N m" : " N");
+  }
+  return "";
+}
+
+}  // namespace
+
 std::vector<std::string> torque_notations(const Chain& chain, const std::vector<TorqueEntry>& torque,
                                           const std::optional<Control>& control) {
   if (control) {
@@ -252,11 +269,14 @@ std::vector<std::string> torque_notations(const Chain& chain, const std::vector<
   if (std::all_of(entries.begin(), entries.end(), [](const std::string& entry) { return parse_number(entry) == 0.0; })) return {"tau = 0"};
   if (entries.size() == 1 && parse_number(entries[0])) return {"tau = " + entries[0] + unit_of(chain)};
   std::vector<std::string> forms;
+  const std::string alone = only_entry(chain, entries);
+  if (!alone.empty() && unit_of(chain).empty()) forms.push_back(alone);
   for (std::size_t shown = entries.size(); shown >= 2; --shown) {
     if (shown == entries.size() || shown <= 8)
       forms.push_back("tau = (" + list_of(entries, shown) + ")" + unit_of(chain));
   }
   if (entries.size() == 1) forms.push_back("tau = (" + entries[0] + ")" + unit_of(chain));
+  if (!alone.empty()) forms.push_back(alone);
   forms.push_back("tau = tau(t, q, qd)");
   return forms;
 }
