@@ -39,14 +39,23 @@ using VectorsAt = std::function<std::vector<WorldVector>(const StagedRun& motion
 // The kinds of vectors that there are of a chain.
 using KindsOf = std::function<std::vector<VectorKind>(const Chain& chain)>;
 
+constexpr std::array kForces{VectorKind::joint_force, VectorKind::weight, VectorKind::constraint, VectorKind::push};
+// The layers that show forces, by their names.
+std::map<const char*, VectorsAt (*)(const Stage&)> force_sources();
+
+// Under which name it is kept by how much arrows are shorter than they would be: forces are by one.
+constexpr std::string_view share_name(std::string_view layer) {
+  return layer == "velocity" ? layer : "forces";
+}
+
 class VectorLayer : public Layer {
  public:
   VectorLayer(const Stage& stage, const char* name, VectorsAt vectors_at, KindsOf kinds_of)
       : stage_(&stage),
-        name_(name),
+        share_(share_name(name)),
         vectors_at_(std::move(vectors_at)),
         kinds_of_(std::move(kinds_of)),
-        scales_(scales_of(stage, name, vectors_at_)),
+        scales_(shared(scales_of(stage, vectors_at_), stage, name)),
         pen_(stage.theme, stage.fonts, stage.page.text_scale, scales_) {}
 
   bool has_words() const override { return true; }
@@ -67,13 +76,13 @@ class VectorLayer : public Layer {
 
   void measure(const Sight& sight, FitBox& box) const override {
     for (const WorldVector& vector : vectors_at_(sight.motion, sight.ws, sight.k))
-      pen_.add_to(box, vector, sight.camera, sight.marks, kLeastArrows / stage_->share_of_arrows(name_));
+      pen_.add_to(box, vector, sight.camera, sight.marks, kLeastArrows / stage_->share_of_arrows(share_));
   }
 
   // Those that begin elsewhere, where a scene names the part that it shows, are not to be seen anyhow.
   void shorten_arrows(const Rect& scene, const Sight& sight, ArrowShares& shares) const override {
     constexpr double kStep = 0.05;
-    double& share = shares.emplace(name_, 1).first->second;
+    double& share = shares.emplace(share_, 1).first->second;
     for (const WorldVector& vector : vectors_at_(sight.motion, sight.ws, sight.k)) {
       const Point place = sight.camera.project(vector.place);
       if (vector.kind == VectorKind::torque || !is_within({place.x, place.y, place.x, place.y}, scene)) continue;
@@ -107,7 +116,7 @@ class VectorLayer : public Layer {
  private:
   // By the time of the motion: where the film stands still or is slow nothing is larger. Runs that diverge do not decide on it,
   // unless all do: their arrows are cut.
-  static VectorScales scales_of(const Stage& stage, const char* name, const VectorsAt& vectors_at) {
+  static VectorScales scales_of(const Stage& stage, const VectorsAt& vectors_at) {
     VectorMagnitudes magnitudes;
     for (std::size_t i = 0; i < stage.full_panels(); ++i) {
       const StagedRun& motion = stage.motions[i];
@@ -122,7 +131,26 @@ class VectorLayer : public Layer {
     }
     auto full = magnitudes.full();
     leave_out_noise(full, stage.motions.front().skeleton().reach);
-    return {full, stage.share_of_arrows(name) * stage.share_of_lengths()};
+    return {full, stage.share_of_lengths()};
+  }
+
+  // Forces within a decade of the largest that the page shows have its scale: what is larger is longer, whatever layer draws it.
+  static VectorScales shared(VectorScales own, const Stage& stage, const char* name) {
+    constexpr double kSeenBeside = 0.1;
+    own.shrink *= stage.share_of_arrows(share_name(name));
+    const double largest = largest_force(own);
+    if (!(largest > 0)) return own;
+    double most = largest;
+    for (const auto& [layer, source] : force_sources())
+      if (std::string_view(layer) != name && stage.shows(layer)) most = std::max(most, largest_force(scales_of(stage, source(stage))));
+    for (const VectorKind kind : kForces)
+      if (double& full = own.full[std::size_t(kind)]; full >= kSeenBeside * most) full = most;
+    return own;
+  }
+  static double largest_force(const VectorScales& scales) {
+    double most = 0;
+    for (const VectorKind kind : kForces) most = std::max(most, scales.full[std::size_t(kind)]);
+    return most;
   }
 
   // What is rounding beside the other drives, of which nobody asked for an arrow at a scale of its own: sliders that rest while
@@ -136,7 +164,7 @@ class VectorLayer : public Layer {
   }
 
   const Stage* stage_;
-  const char* name_;  // of the layer
+  std::string_view share_;
   VectorsAt vectors_at_;
   KindsOf kinds_of_;
   VectorScales scales_;
@@ -328,33 +356,50 @@ std::map<const StagedRun*, Value> along_runs(const Stage& stage, Compute compute
   return values;
 }
 
+VectorsAt weights_of(const Stage&) {
+  return [](const StagedRun& motion, const Workspace& ws, int) { return weights_at(motion.chain(), ws); };
+}
+
+VectorsAt torques_of(const Stage& stage) {
+  return [runs = along_runs<TorqueRun>(stage, [&](const StagedRun& motion) { return TorqueRun(stage, motion); })](
+             const StagedRun& motion, const Workspace& ws, int k) {
+    const auto run = runs.find(&motion);
+    return run == runs.end() ? std::vector<WorldVector>() : torques_at(motion.chain(), ws, run->second, k);
+  };
+}
+
+VectorsAt pushes_of(const Stage&) {
+  return [](const StagedRun& motion, const Workspace& ws, int k) {
+    const Pushes* pushes = motion.simulation() == nullptr ? nullptr : motion.simulation()->torque->pushes();
+    return pushes == nullptr ? std::vector<WorldVector>() : pushes_at(motion.chain(), ws, *pushes, motion.trajectory().t[std::size_t(k)]);
+  };
+}
+
+VectorsAt constraint_forces_of(const Stage& stage) {
+  return [forces = along_runs<ReactionRun>(stage, reactions_of)](const StagedRun& motion, const Workspace& ws, int k) {
+    const auto own = forces.find(&motion);
+    return own == forces.end() || own->second.at.empty()
+               ? std::vector<WorldVector>()
+               : reactions_at(motion.chain(), ws, own->second.at[std::size_t(k)], own->second.pushed, motion.trajectory().rows);
+  };
+}
+
+std::map<const char*, VectorsAt (*)(const Stage&)> force_sources() {
+  return {{"gravity", weights_of}, {"torque", torques_of}, {"push", pushes_of}, {"constraint_force", constraint_forces_of}};
+}
+
 }  // namespace
 
 std::unique_ptr<const Layer> make_layer_gravity(const Stage& stage) {
-  return std::make_unique<VectorLayer>(
-      stage, "gravity", [](const StagedRun& motion, const Workspace& ws, int) { return weights_at(motion.chain(), ws); },
-      always(VectorKind::weight));
+  return std::make_unique<VectorLayer>(stage, "gravity", weights_of(stage), always(VectorKind::weight));
 }
 
 std::unique_ptr<const Layer> make_layer_torque(const Stage& stage) {
-  return std::make_unique<VectorLayer>(
-      stage, "torque",
-      [runs = along_runs<TorqueRun>(stage, [&](const StagedRun& motion) { return TorqueRun(stage, motion); })](
-          const StagedRun& motion, const Workspace& ws, int k) {
-        const auto run = runs.find(&motion);
-        return run == runs.end() ? std::vector<WorldVector>() : torques_at(motion.chain(), ws, run->second, k);
-      },
-      kinds_of_torque);
+  return std::make_unique<VectorLayer>(stage, "torque", torques_of(stage), kinds_of_torque);
 }
 
 std::unique_ptr<const Layer> make_layer_push(const Stage& stage) {
-  return std::make_unique<VectorLayer>(
-      stage, "push",
-      [](const StagedRun& motion, const Workspace& ws, int k) {
-        const Pushes* pushes = motion.simulation() == nullptr ? nullptr : motion.simulation()->torque->pushes();
-        return pushes == nullptr ? std::vector<WorldVector>() : pushes_at(motion.chain(), ws, *pushes, motion.trajectory().t[std::size_t(k)]);
-      },
-      always(VectorKind::push));
+  return std::make_unique<VectorLayer>(stage, "push", pushes_of(stage), always(VectorKind::push));
 }
 
 std::unique_ptr<const Layer> make_layer_velocity(const Stage& stage) {
@@ -364,15 +409,7 @@ std::unique_ptr<const Layer> make_layer_velocity(const Stage& stage) {
 }
 
 std::unique_ptr<const Layer> make_layer_constraint_force(const Stage& stage) {
-  return std::make_unique<VectorLayer>(
-      stage, "constraint_force",
-      [forces = along_runs<ReactionRun>(stage, reactions_of)](const StagedRun& motion, const Workspace& ws, int k) {
-        const auto own = forces.find(&motion);
-        return own == forces.end() || own->second.at.empty()
-                   ? std::vector<WorldVector>()
-                   : reactions_at(motion.chain(), ws, own->second.at[std::size_t(k)], own->second.pushed, motion.trajectory().rows);
-      },
-      always(VectorKind::constraint));
+  return std::make_unique<VectorLayer>(stage, "constraint_force", constraint_forces_of(stage), always(VectorKind::constraint));
 }
 
 }  // namespace chainreel
