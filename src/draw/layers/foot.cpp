@@ -96,10 +96,10 @@ class FootLayer : public Layer {
   void write(SheetText& text) const override {
     constexpr double kLegend = 0.045;  // units of H, at most
     if (!weight_) return;
-    if (!names_center_) text.scales.push_back({ScaleEntry::Mark::center_of_mass, 0, theme_->ink, "centre of mass", kAfterScales});
+    if (!names_center_) text.scales.push_back({ScaleEntry::Mark::center_of_mass, 0, theme_->ink, "centre of mass", kAfterVectors});
     const double force = round_length(kLegend / arrow_ * *weight_);
     text.scales.push_back({ScaleEntry::Mark::arrow, arrow_ * force / *weight_, theme_->constraint,
-                           "ground reaction " + format_shortest(force) + " N", kAfterVectors, true});
+                           "ground reaction " + format_shortest(force) + " N", kAfterScales, true});
   }
 
   // Its scale stands with it: while any run shows an arrow.

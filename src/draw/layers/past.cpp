@@ -49,6 +49,8 @@ class TrailLayer : public Layer {
 
 class GhostsLayer : public Layer {
  public:
+  explicit GhostsLayer(const Stage& stage) : shows_chain_(stage.shows("chain")) {}
+
   UnderWords under_words() const override { return UnderWords::freely; }
 
   void draw(Picture& picture, const Shot& shot) const override {
@@ -63,7 +65,11 @@ class GhostsLayer : public Layer {
       draw_links(picture, drawing, then, panel.clip());
     }
     panel.motion().pose_at(shot.k);  // as it stands for what lies above
+    if (shows_chain_ && !panel.motion().has_foot()) draw_base(picture, panel.drawing(), panel.clip());  // which they would hide
   }
+
+ private:
+  bool shows_chain_;
 };
 
 }  // namespace
@@ -72,8 +78,8 @@ std::unique_ptr<const Layer> make_layer_trail(const Stage& stage) {
   return std::make_unique<TrailLayer>(stage);
 }
 
-std::unique_ptr<const Layer> make_layer_ghosts(const Stage&) {
-  return std::make_unique<GhostsLayer>();
+std::unique_ptr<const Layer> make_layer_ghosts(const Stage& stage) {
+  return std::make_unique<GhostsLayer>(stage);
 }
 
 void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines, double length) {
