@@ -47,7 +47,7 @@ void leave_out_unknown(std::vector<double>& t, std::vector<double>& y) {
   y = std::move(values);
 }
 
-constexpr double kSeenStep = 0.006;  // of the clip: dots at the ends of such steps stand apart
+constexpr double kSeenStep = 0.015;  // of the clip: dots at the ends of such steps stand apart
 
 // What the plots of the page show of a run; its simulation must be there. The work, and so what is wrong with the energy, is known
 // at its samples alone.
@@ -56,7 +56,8 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
   StripRun strip{motion.title(), motion.is_wild(), {}, story};
   strip.accurate_until = motion.accurate_until();
   if (const Simulation* simulation = motion.simulation()) {
-    if (simulation->step >= kSeenStep * run.t.back()) strip.step = simulation->step;
+    // Of higher order curves bend as the motion does, and steps are not seen.
+    if (simulation->method && simulation->method->order == 1 && simulation->step >= kSeenStep * run.t.back()) strip.step = simulation->step;
     const Trajectory& whole = motion.trajectory();
     if (whole.energy_at_steps && doubt_of_energy(*simulation, whole, audit_of(*simulation, whole), {})) strip.energy_off = whole.energy_at_steps->signed_error;
   }

@@ -210,11 +210,12 @@ void PlotStrip::draw_frame(Picture& picture, double t) const {
 
 namespace {
 
-void add_doubts(const StripRun& run, PlotQuantity quantity, StripData& data) {
+// Of plot i, of which the first says what holds for all.
+void add_doubts(const StripRun& run, std::size_t i, StripData& data) {
   if (run.accurate_until < data.end) {
     data.accurate_until = run.accurate_until;
-    data.note = "accurate until " + format_significant(run.accurate_until, 3) + " s";
-  } else if (run.energy_off != 0 && quantity == PlotQuantity::energy) {
+    if (i == 0) data.note = "accurate until " + format_significant(run.accurate_until, 3) + " s";
+  } else if (run.energy_off != 0 && run.plots[i].quantity == PlotQuantity::energy) {
     data.note = "total off by " + format_significant(std::abs(run.energy_off), 2) + " J";
   }
 }
@@ -230,7 +231,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     if (i >= run.plots.size()) continue;
     const PlotCurves& plot = run.plots[i];
     data.title = title_with_symbol(plot);
-    if (!data.of_runs) add_doubts(run, plot.quantity, data);
+    if (!data.of_runs) add_doubts(run, i, data);
     data.angles = plot.angles;
     // A comparison shows the sum of energies alone.
     const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/shapes.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -65,6 +67,38 @@ TEST(PlotStrip, WhatOneRunKeepsAndAnotherDoesNotIsSeen) {
   EXPECT_GE(axis({drifts}).high, 0) << "by itself";
   EXPECT_GE(axis({alike, alike}).high, 0) << "what both do alike";
   EXPECT_GE(axis({kept, kept}).high, 0);
+}
+
+// Where steps end, and what nobody promises, is seen in the plot itself.
+TEST(PlotStrip, MarksLongStepsAndWhatIsNotAccurate) {
+  const Fonts fonts;
+  const auto drawn = [&](const StripRun& run, PlotQuantity quantity = PlotQuantity::expression) {
+    StripRun shown = run;
+    shown.plots[0].quantity = quantity;
+    Picture still;
+    PlotStrip(strip_data({shown}, 0, 4, light_theme()), kStripArea, style_of(fonts)).draw_static(still);
+    return still;
+  };
+  const auto discs = [](const Picture& picture) { return test::all_of<Ellipse>(picture).size(); };
+  const auto zones = [](const Picture& picture) {
+    return test::all_of<Polygon>(picture, [](const Polygon& p) { return p.paint.fill == light_theme().grid; }).size();
+  };
+  StripRun run = run_of("a", false, {0, 1, 2, 3, 4});
+  const std::size_t none = discs(drawn(run));
+  run.step = 2;
+  EXPECT_EQ(discs(drawn(run)) - none, 3u * (discs(drawn(run)) - none) / 3) << "a mark each at 0, 2 and 4";
+  EXPECT_GE(discs(drawn(run)), none + 3);
+  run.step = 0;
+  EXPECT_EQ(zones(drawn(run)), 0u);
+  EXPECT_EQ(test::words_of(drawn(run)).find("until"), std::string::npos);
+  run.energy_off = -0.567;
+  EXPECT_EQ(test::words_of(drawn(run)).find("off"), std::string::npos) << "a plot of something else";
+  EXPECT_NE(test::words_of(drawn(run, PlotQuantity::energy)).find("total off by 0.57 J"), std::string::npos);
+  run.accurate_until = 2.6584;
+  EXPECT_EQ(zones(drawn(run)), 1u);
+  EXPECT_NE(test::words_of(drawn(run)).find("accurate until 2.66 s"), std::string::npos);
+  run.accurate_until = 4;
+  EXPECT_EQ(zones(drawn(run)), 0u) << "to the end of the clip";
 }
 
 TEST(PlotStrip, TwoRunsBearTheColoursOfTheirTitlesMoreAreNamed) {

@@ -356,7 +356,8 @@ TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {
   };
   for (const char* name : {"rr_torque", "rrr_torque", "pp_spring", "pen", "four_bar", "slider_crank", "humanoid_fall", "particle"}) {
     const Scene scene = read_scene("assets/scenes/" + std::string(name) + ".yaml");
-    for (const char* layer : {"torque", "springs", "constraints", "target", "g", "limits"}) EXPECT_TRUE(has(scene, layer)) << name << layer;
+    for (const char* layer : {"torque", "springs", "constraints", "target", "g", "limits"})
+      EXPECT_EQ(has(scene, layer), !(std::string(name) == "pen" && std::string(layer) == "target")) << name << layer;  // its target is next to its pose
     EXPECT_FALSE(has(scene, "angles"));
   }
   for (const char* name : {"big_steps", "euler_gains_energy", "ghost_euler"}) {
@@ -413,6 +414,37 @@ TEST(ConstraintForces, AreNamedLikeTheirCurves) {
   EXPECT_GT(dashes(four_bar.film().still(44)), 0u);
   EXPECT_TRUE(has_words(four_bar.film().still(44), "1,2"));
   EXPECT_GT(dashes(pen.film().still(40)), 0u);
+}
+
+// A force that pushes its link comes from outside; where it is drawn from its place on, it lies on the link.
+TEST(ConstraintForces, EndAtThePlaceThatTheyPush) {
+  const Cause pen("pen", {"layout=scene"});
+  const Film pictures = pen.film();
+  const Chain& chain = pen.simulation.chain;
+  Workspace ws(chain);
+  for (const int k : {0, 40, 100}) {
+    compute_kinematics(chain, ws, pen.run.q_at(k), pen.run.qd_at(k));
+    const Point pushed = pictures.camera().project(tip_position(chain, ws));
+    for (const Polygon& part : test::all_of<Polygon>(pictures.still(k), [](const Polygon& p) { return p.paint.fill == light().constraint; }))
+      if (part.corners[0].y > 0.1) EXPECT_LT(test::box_of(part).y1, pushed.y) << k;  // not its scale's in the foot of the page
+  }
+}
+
+// Of forces that act together the larger one is longer, whichever layer draws it.
+TEST(Forces, AreAtOneScale) {
+  const auto longest = [](const Picture& picture, Color color, bool in_foot) {
+    double most = 0;
+    for (const Capsule& shaft : test::all_of<Capsule>(picture, [&](const Capsule& c) { return c.paint.fill == color && (c.a.y < 0.12) == in_foot; }))
+      most = std::max(most, test::distance(shaft.a, shaft.b));
+    return most;
+  };
+  const Cause both("particle", {"torque=[4.905]"}, 0.2);
+  const Picture picture = both.film().still(0);
+  const double push = longest(picture, light().torque, false), weight = longest(picture, light().force, false);
+  ASSERT_GT(push, 0);
+  ASSERT_GT(weight, 0);
+  EXPECT_LT(push, 0.6 * weight) << "half of it, the heads apart";
+  EXPECT_NEAR(longest(picture, light().torque, true), longest(picture, light().force, true), 1e-12) << "one scale is printed";
 }
 
 // Whatever pulls there, no word lies on the pose that feedback follows.

@@ -41,6 +41,16 @@ TEST(TorqueLabel, TellsContactForcesAndCuts) {
   for (const std::string& form : torque_notations(chain, scene)) EXPECT_NO_THROW(lay_out_math(fonts(), form, {}));
 }
 
+// Where joints turn and slide a tuple has no unit, and the one torque that acts does.
+TEST(TorqueLabel, NamesTheOneThatActsWithItsUnit) {
+  EXPECT_EQ(label("slider_crank", {"8 - qd1", "0", "0"}), "tau_1 = (8 - qd1) N m");
+  EXPECT_EQ(label("slider_crank", {"0", "0", "5"}), "tau_3 = 5 N");
+  EXPECT_EQ(label("slider_crank", {"8 - qd1", "0", "5"}), "tau = (8 - qd1, 0, 5)");
+  std::vector<TorqueEntry> torque(2);
+  torque[0].text = "10", torque[1].text = "0";
+  EXPECT_EQ(torque_notations(test::model("rr"), torque), (std::vector<std::string>{"tau = (10, 0) N m", "tau_1 = 10 N m", "tau = tau(t, q, qd)"}));
+}
+
 TEST(TorqueLabel, ShowsExpressionsAsWritten) {
   EXPECT_EQ(label("pp", {"0", "-100 * y_G"}), "tau = (0, -100 * y_G) N");
 }
@@ -79,8 +89,8 @@ TEST(TorqueLabel, HasNoUnitWhereForcesAndTorquesMix) {
   Chain chain = test::model("rr");
   chain.bodies[2].joint.kind = JointKind::prismatic;
   std::vector<TorqueEntry> torque(2);
-  torque[0].text = "1", torque[1].text = "0";
-  EXPECT_EQ(torque_notations(chain, torque).front(), "tau = (1, 0)");
+  torque[0].text = "1", torque[1].text = "2";
+  EXPECT_EQ(torque_notations(chain, torque).front(), "tau = (1, 2)");
 }
 
 TEST(TorqueLabel, NamesWhatAControlDoes) {
