@@ -43,6 +43,22 @@ TEST(Warnings, AreSaidOfEnergyThatTheMethodMadeAndChangeNoExitCode) {
   EXPECT_THAT(picture.err, HasSubstr("WARNING: coarse: the energy is off by"));
 }
 
+// Numbers of one instant and poses along a motion are as far off as the run that they are of, until there.
+TEST(Warnings, AreSaidOfInstantsAndPosesOfARun) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("coarse.yaml", coarse("method: explicit_euler\nstep: 0.02\n"));
+  const auto said = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--warnings", "fail", "--quiet"});
+    const ProgramResult run = run_program(words);
+    EXPECT_EQ(run.status, run.err.find("the energy is off by") == std::string::npos ? 0 : 1) << run.err;
+    return run.status;
+  };
+  EXPECT_EQ(said({"dynamics", scene, "--at", "2"}), 1);
+  EXPECT_EQ(said({"dynamics", scene, "--at", "0"}), 0) << "nothing has moved";
+  EXPECT_EQ(said({"ellipse", "--along", scene, "-o", folder.file("a.png")}), 1);
+  EXPECT_EQ(said({"dynamics", scene, "--at", "2", "--set", "acknowledge=[energy]"}), 0);
+}
+
 TEST(Warnings, HaveARemedyThatCanBeTyped) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("coarse.yaml", coarse("method: explicit_euler\nstep: 0.02\n"));

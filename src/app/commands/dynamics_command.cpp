@@ -207,8 +207,8 @@ Json scene_report(const DynamicsOptions& options) {
     throw Error(ExitCode::usage,
                 "--q, --qd and --tau go with a model; a scene has the state of its run at --at: to start elsewhere, "
                 "take --set 'start.q=[..]' and --set 'torque=[..]'");
-  const PreparedFilm film = load_film(options.file, overrides_of(options), false);
-  const PreparedScene& prepared = film.panels[chosen_panel(film.scene, options.panel)];
+  PreparedFilm film = load_film(options.file, overrides_of(options), false);
+  PreparedScene& prepared = film.panels[chosen_panel(film.scene, options.panel)];
   const double at = options.at.empty() ? 0 : parse_seconds(options.at, "--at");
   if (!(at >= 0 && at <= film.scene.duration))
     throw Error(ExitCode::usage, "--at " + options.at + " lies outside the scene's duration of " +
@@ -220,7 +220,6 @@ Json scene_report(const DynamicsOptions& options) {
                 "--formulation lagrange knows no constraints, which `" + options.file + "` has: leave it out");
   say_choice(prepared, options.common.quiet);
   const Trajectory run = state_at(prepared, at);
-  warn_of_rank(prepared, at);
   const Instant now = instant_of(simulation, run, 0);
   State state{{run.q_at(0).begin(), run.q_at(0).end()}, {run.qd_at(0).begin(), run.qd_at(0).end()}, now.tau};
   for (std::size_t i = 0; i < now.tau_push.size(); ++i) state.tau[i] += now.tau_push[i];
@@ -231,6 +230,8 @@ Json scene_report(const DynamicsOptions& options) {
   json["t"] = at;
   if (options.formulation != "lagrange") json["qdd"] = list(now.qdd);
   if (tip.is_constrained()) add_constraints(json, now, simulation.constraints);
+  prepared.simulation.duration = at;  // until there
+  warn_of_run(prepared);
   return json;
 }
 

@@ -314,7 +314,7 @@ void run_energy(const EnergyOptions& options) {
   require_all_possible(all);
   const std::vector<MethodRun> runs = run_all(all, until, options.common.quiet);
 
-  warn_of_rank(all.first(), until);
+  warn_of_run(all.first(), "rank");
 
   const Fonts fonts(families_of(scene));
   const ChartLook look = chart_look(options.figure, scene, fonts);

@@ -168,15 +168,19 @@ void tell_warnings(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) tell_warning(line);
 }
 
-void warn_of_rank(const PreparedScene& prepared, double end) {
+void warn_of_run(const PreparedScene& prepared, const std::string& only) {
   constexpr int kInstants = 200;
-  const std::vector<std::string>& known = prepared.scene.acknowledge;
-  if (prepared.simulation.constraints.empty() || !(end > 0) || std::find(known.begin(), known.end(), "rank") != known.end()) return;
+  const double end = prepared.simulation.duration;
+  if (!(end > 0) || (only == "rank" && prepared.simulation.constraints.empty())) return;
   std::vector<double> times;
   for (int k = 0; k <= kInstants; ++k) times.push_back(end * k / kInstants);
-  const Trajectory trajectory = simulate(prepared.simulation, times, [](double) { return interrupted(); });
+  const Trajectory trajectory = simulate_audited(prepared.simulation, times, [](double) { return interrupted(); });
   throw_if_interrupted();
-  if (const std::optional<Doubt> doubt = doubt_of_rank(prepared.simulation, trajectory, end)) tell_warnings({prepared.scene.name + ": " + doubt->words});
+  std::vector<std::string> lines;
+  for (const Doubt& doubt : warnings_of(prepared, trajectory, audit_of(prepared.simulation, trajectory)))
+    if ((only.empty() ? doubt.kind != "samples" : doubt.kind == only) && std::ranges::find(prepared.scene.acknowledge, doubt.kind) == prepared.scene.acknowledge.end())
+      lines.push_back(prepared.scene.name + ": " + doubt.words);
+  tell_warnings(lines);
 }
 
 std::vector<std::string> warning_lines(const std::string& name, const RunReport& report) {
