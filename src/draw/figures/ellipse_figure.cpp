@@ -70,7 +70,7 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
   draw_mass_ellipse(picture, pose.axes, tip, seen, style, clip);
   if (!drawing.shapes) draw_end_effector(picture, tip, drawing.look, clip);
   std::vector<Obstacle> bodies;
-  if (drawing.shapes) add_bodies(bodies, panels.skeleton, ws, camera);
+  if (drawing.shapes) add_silhouettes(bodies, *drawing.shapes, ws, camera);
   const int left_out = draw_clear_of(picture, framed, labels, bodies, panels.picture(i), theme, clip);
   if (i < panels.options.labels.size()) {
     const TextStyle text{Face::label, scaled(size::kAxis, panels.options.text_scale), theme.ink, Align::left};

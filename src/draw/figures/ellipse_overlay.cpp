@@ -256,7 +256,7 @@ struct Overlay {
     for (const Pose& pose : poses) {
       if (!options.shapes || is_field()) break;
       stand_in(pose);
-      add_bodies(found, skeleton, ws, camera);
+      add_silhouettes(found, *options.shapes, ws, camera);
     }
     return found;
   }

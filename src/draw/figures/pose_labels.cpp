@@ -134,6 +134,34 @@ std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::spa
   return placed;
 }
 
+namespace {
+
+constexpr int kRoundsOfTies = 6;  // each has fewer places than the one before
+
+// Takes from each word the places that lie on the line of one before it, or whose own line would cross that; whether any stood there.
+bool leave_ties(std::vector<MarkWord>& words, const std::vector<StandingWord>& standing) {
+  bool is_changed = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto line = words[i].tie && standing[i].opacity > 0 ? line_of(*words[i].tie, standing[i].box) : std::nullopt;
+    if (!line) continue;
+    for (std::size_t j = 0; j < words.size(); ++j) {
+      const auto meets_line = [&](const Rect& box) {
+        const auto own = words[j].tie ? line_of(*words[j].tie, box) : std::nullopt;
+        return meets(widened(box, kAir / 2), line->from, line->to) || (own && segments_cross(line->from, line->to, own->from, own->to));
+      };
+      if (j == i || !(standing[j].opacity > 0) || !meets_line(standing[j].box)) continue;
+      std::vector<Rect> others;
+      std::ranges::remove_copy_if(words[j].places, std::back_inserter(others), meets_line);
+      if (others.empty()) continue;
+      words[j].places = std::move(others);
+      is_changed = true;
+    }
+  }
+  return is_changed;
+}
+
+}  // namespace
+
 int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, std::vector<Obstacle> obstacles, const Rect& scene,
                    const Theme& theme, int clip, bool most_or_none) {
   // An axis that fades out of the panel at both ends has its number at one of them, or beside it there.
@@ -160,9 +188,13 @@ int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, 
   // Two numbers side by side are two where more than a blank is between them.
   double between = kBetweenWords;
   for (const MarkWord& word : others) between = std::max(between, kBetweenNumbers * word.line.box.height());
-  WordPlan plan(room, kLooksPerSecond, between);
-  plan.add(others, obstacles);
-  const std::vector<StandingWord> standing = plan.standing().front();
+  const auto placed_now = [&] {
+    WordPlan plan(room, kLooksPerSecond, between);
+    plan.add(others, obstacles);
+    return plan.standing().front();
+  };
+  std::vector<StandingWord> standing = placed_now();
+  for (int round = 0; round < kRoundsOfTies && leave_ties(others, standing); ++round) standing = placed_now();
   const auto left_out = std::count_if(standing.begin(), standing.end(), [](const StandingWord& word) { return !(word.opacity > 0); });
   MarkLabels placed(standing);
   for (MarkWord& word : others) placed.add(std::move(word));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "draw/page/word_plan.hpp"
+#include "draw/robot/body_shapes.hpp"
 #include "draw/robot/skeleton.hpp"
 #include "picture/camera.hpp"
 
@@ -20,5 +21,8 @@ inline void add_bodies(std::vector<Obstacle>& obstacles, const Skeleton& skeleto
     obstacles.push_back({from, to, kFlesh, true});
   }
 }
+
+// The same, of still figures, which have room around the robot: all that each shape covers, as the hull of its corners.
+void add_silhouettes(std::vector<Obstacle>& obstacles, const BodyShapes& shapes, const Workspace& ws, const Camera& camera);
 
 }  // namespace chainreel

@@ -48,7 +48,7 @@ class Ellipsoid {
     const std::array<Point, 2> outline = spread_.axes();
     if (style_.draws_below()) {
       draw_ellipse(picture, center_, outline, {line.faded(kSilhouetteFill), {}, 0}, fade_, clip);
-      for (const Line& far : far_lines()) draw_dashed(picture, far, clip);
+      for (const Line& far : far_lines()) draw_dashed(picture, on_page(far), style_.lines * kFarLine, line.faded(kFarOpacity), clip);
     }
     const bool has_inside = norm(outline[1]) > kNoLength;
     // Of what stands before the middle, and of the silhouette, that which a body hides.
@@ -63,6 +63,7 @@ class Ellipsoid {
       for (const Line& near : near_lines())
         draw_pieces(picture, near, false, stroke, size::kEllipseAxis, clip);
     });
+    if (style_.part == EllipsePart::above && style_.hides) draw_hidden(picture, clip);
     if (style_.draws_above()) draw_numbers(picture, clip);
   }
 
@@ -81,15 +82,23 @@ class Ellipsoid {
   }
   static bool has_length(const SolidAxis& axis) { return axis.v.norm() > kNoLength; }
 
-  // Half of each principal ellipse, from where it meets the silhouette on, and half of each axis.
-  std::vector<Line> halves(double side) const {
+  // Half of each axis, in pieces, since bodies may hide a part of it.
+  std::vector<Line> half_axes(double side) const {
     std::vector<Line> lines;
+    for (const SolidAxis& axis : axes_) {
+      if (!has_length(axis)) continue;
+      const double toward = camera_.toward_viewer.dot(axis.v) < 0 ? -side : side;
+      Line line;
+      for (int i = 0; i <= kHalfTurn; ++i) line.push_back(double(i) / kHalfTurn * toward * axis.v);
+      lines.push_back(std::move(line));
+    }
+    return lines;
+  }
+  // Half of each principal ellipse, from where it meets the silhouette on, and of each axis.
+  std::vector<Line> halves(double side) const {
+    std::vector<Line> lines = half_axes(side);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       const SolidAxis &u = axes_[i], &v = axes_[(i + 1) % axes_.size()];
-      if (has_length(u)) {
-        const double toward = camera_.toward_viewer.dot(u.v) < 0 ? -side : side;
-        lines.push_back({Vector3d::Zero(), toward * u.v});
-      }
       if (axes_.size() < 3 || !has_length(u) || !has_length(v)) continue;
       const double middle = facing(u, v) + (side > 0 ? 0 : std::numbers::pi);
       Line half;
@@ -101,19 +110,8 @@ class Ellipsoid {
     }
     return lines;
   }
-  std::vector<Line> near_lines() const { return finely(halves(1)); }
+  std::vector<Line> near_lines() const { return halves(1); }
   std::vector<Line> far_lines() const { return halves(-1); }
-
-  // Bodies may hide a part of a long line.
-  static std::vector<Line> finely(std::vector<Line> lines) {
-    for (Line& line : lines) {
-      if (line.size() != 2) continue;
-      const Line ends = line;
-      line.clear();
-      for (int i = 0; i <= kHalfTurn; ++i) line.push_back(ends[0] + double(i) / kHalfTurn * (ends[1] - ends[0]));
-    }
-    return lines;
-  }
 
   // Where the surface turns away from the viewer: the image of a great circle of the unit sphere.
   Line silhouette() const {
@@ -138,32 +136,41 @@ class Ellipsoid {
     return line;
   }
 
-  // Those pieces of the line that a body hides, or the others.
-  void draw_pieces(Picture& picture, const Line& line, bool hidden, const Stroke& stroke, double width,
-                   int clip) const {
-    const double wide = stroke.width(width, style_);
-    std::vector<Point> piece;
-    const auto put_down = [&] {
-      // The edge ends before the line does, which goes on below.
-      if (stroke.wider > 0 && piece.size() > 2) piece = {piece.begin() + 1, piece.end() - 1};
-      if (piece.size() > 1) draw_outline(picture, piece, wide, stroke.color, fade_, clip);
-      piece.clear();
-    };
+  // The pieces of the line that a body hides, or the others.
+  std::vector<std::vector<Point>> pieces_of(const Line& line, bool hidden) const {
+    std::vector<std::vector<Point>> pieces;
+    bool goes_on = false;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       const bool is_hidden = style_.hides && style_.hides(0.5 * (line[i] + line[i + 1]));
-      if (is_hidden != hidden) {
-        put_down();
-        continue;
-      }
-      if (piece.empty()) piece.push_back(on_page(line[i]));
-      piece.push_back(on_page(line[i + 1]));
+      if (is_hidden == hidden && !goes_on) pieces.push_back({on_page(line[i])});
+      if (is_hidden == hidden) pieces.back().push_back(on_page(line[i + 1]));
+      goes_on = is_hidden == hidden;
     }
-    put_down();
+    return pieces;
+  }
+
+  void draw_pieces(Picture& picture, const Line& line, bool hidden, const Stroke& stroke, double width,
+                   int clip) const {
+    for (std::vector<Point>& piece : pieces_of(line, hidden)) {
+      // The edge ends before the line does, which goes on below.
+      if (stroke.wider > 0 && piece.size() > 2) piece = {piece.begin() + 1, piece.end() - 1};
+      if (piece.size() > 1) draw_outline(picture, piece, stroke.width(width, style_), stroke.color, fade_, clip);
+    }
+  }
+
+  // Over a body, so that the shape of the whole and its axes are seen: the outline and the near axes, dashed.
+  void draw_hidden(Picture& picture, int clip) const {
+    std::vector<Line> lines = half_axes(1);
+    if (norm(spread_.axes()[1]) > kNoLength) lines.push_back(silhouette());
+    for (const Line& line : lines)
+      for (const std::vector<Point>& piece : pieces_of(line, true)) {
+        draw_dashed(picture, piece, style_.lines * size::kEllipseAxis + 2 * style_.lines * kLineEdge, style_.theme->background, clip);
+        draw_dashed(picture, piece, style_.lines * size::kEllipseAxis, style_.theme->ellipse, clip);
+      }
   }
 
   // Dashes symmetric about the middle of the line's length.
-  void draw_dashed(Picture& picture, const Line& line, int clip) const {
-    const std::vector<Point> points = on_page(line);
+  void draw_dashed(Picture& picture, const std::vector<Point>& points, double width, Color color, int clip) const {
     std::vector<double> way{0};
     for (std::size_t i = 1; i < points.size(); ++i)
       way.push_back(way.back() + norm(points[i] - points[i - 1]));
@@ -176,13 +183,11 @@ class Ellipsoid {
       return points[i - 1] + (step > 0 ? (s - way[i - 1]) / step : 0) * (points[i] - points[i - 1]);
     };
     const int count = int(std::min(whole / 2, kBeyond) / period);
-    const Color color = style_.theme->ellipse.faded(kFarOpacity);
     for (int i = -count; i <= count; ++i) {
       const double from = std::max(0.0, whole / 2 + i * period - kFarDash / 2);
       const double to = std::min(whole, whole / 2 + i * period + kFarDash / 2);
       const double opacity = fade_.opacity_at(at((from + to) / 2));
-      if (from < to && opacity > 0)
-        draw_line(picture, {at(from), at(to)}, style_.lines * kFarLine, color.faded(opacity), clip);
+      if (from < to && opacity > 0) draw_line(picture, {at(from), at(to)}, width, color.faded(opacity), clip);
     }
   }
 

@@ -17,7 +17,8 @@ constexpr double kNumberGaps[] = {0.010, 0.018};        // units of H, beyond th
 constexpr double kBesideGaps[] = {0.010, 0.018, 0.03};    // ... beside it, of one that is short
 constexpr double kTieOff = 0.004, kShortTie = 0.008;      // lines of figures end so far from that end, and are no shorter
 constexpr double kTiedNumberGaps[] = {0.05, 0.09, 0.13, 0.18, 0.25};  // ... of figures, with a line from there
-constexpr double kFarNumberGaps[] = {0.05, 0.09, 0.13};  // ... where a robot is in the way
+constexpr double kFarNumberGaps[] = {0.05, 0.09, 0.13, 0.18, 0.25, 0.33, 0.42};  // ... where a robot is in the way
+constexpr std::size_t kFarOfFilms = 3;  // of these: in films words stay near
 constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
 constexpr double kOwnByFar = 0.7;                       // of the way to the end of another axis: a number is that of the nearer one
 constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
@@ -303,8 +304,8 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
     draw_at_edges(picture, text_of_length(length, strength, style), center, unit(v), half_width, style, clip, style.labels);
   if (style.labels == nullptr || !style.signs) return;
   // In a figure there is room for a line from the number to what it is of.
-  const bool has_lines = style.unnamed != nullptr && !style.hides;
-  if (norm(v) < (has_lines ? kNoLength : kLeastAxis)) {
+  const bool is_figure = style.unnamed != nullptr, has_lines = is_figure && !style.hides;
+  if (norm(v) < (is_figure ? kNoLength : kLeastAxis)) {
     if (style.unnamed != nullptr) ++*style.unnamed;
     return;
   }
@@ -339,10 +340,11 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
   // In space the robot may lie around the ends of an axis.
   if (style.hides) {
     const Point end = center + v;
-    for (const double gap : kFarNumberGaps)
-      for (const Rect& place : places_about(word.line, end, gap, unit(v)))
-        if (is_within(place, style.scene)) word.places.push_back(place);
-    word.tie = Tie{end, kNumberGaps[0], style.theme->ellipse, center - v};
+    for (const double gap : std::span(kFarNumberGaps).first(is_figure ? std::size(kFarNumberGaps) : kFarOfFilms))
+      for (const Point tip : {end, center - v})
+        for (const Rect& place : places_about(word.line, tip, gap, unit(tip - center)))
+          if (is_within(place, style.scene) && (is_figure || tip.x == end.x)) word.places.push_back(place);
+    word.tie = is_figure ? Tie{end, kTieOff, style.theme->ellipse, center - v, kShortTie} : Tie{end, kNumberGaps[0], style.theme->ellipse, center - v};
   }
   if (has_lines) {
     for (const double share : {0.7, -0.7, 0.4, -0.4})

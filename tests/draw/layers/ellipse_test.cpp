@@ -11,6 +11,7 @@
 #include "core/format.hpp"
 #include "draw/chains.hpp"
 #include "draw/film/film.hpp"
+#include "draw/layers/body_obstacles.hpp"
 #include "draw/layers/fading.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/shapes.hpp"
@@ -362,8 +363,46 @@ TEST(Ellipsoid, IsHiddenWhereABodyStandsBeforeIt) {
   };
   EXPECT_GT(lines(EllipsePart::below), 3u);
   EXPECT_EQ(lines(EllipsePart::above), 0u) << "all of it is in the cube";
+  // Over the body its outline and its axes are dashed.
+  const auto dashes = [&] {
+    Picture picture;
+    draw_mass_ellipse(picture, axes, {0.8, 0.5}, {}, style, -1);
+    return test::all_of<Capsule>(picture, [&](const Capsule& dash) { return dash.paint.fill == light_theme().ellipse; });
+  };
+  style.part = EllipsePart::above;
+  double farthest = 0;
+  for (const Capsule& dash : dashes()) farthest = std::max(farthest, test::distance(dash.a, {0.8, 0.5}));
+  EXPECT_NEAR(farthest, 0.4, 0.01) << "as far as the longest semi-axis, but for a gap between dashes";
   style.hides = nullptr;
   EXPECT_GT(lines(EllipsePart::above), 3u);
+  EXPECT_TRUE(dashes().empty()) << "nothing hides anything";
+}
+
+// Words keep off all that a body covers, not only off a line through it.
+TEST(Ellipsoid, IsNamedBesideTheBodiesBeforeIt) {
+  Visual visual;
+  visual.size = {1, 1, 1};
+  MeshShelf shelf;
+  const BodyShapes cube = load_body_shapes({visual}, MeshUp::rviz, shelf);
+  const Chain chain = test::model("rr");
+  Workspace ws(chain);
+  compute_kinematics(chain, ws, std::vector<double>{0, 0}, std::vector<double>{0, 0});
+  std::vector<Obstacle> covered;
+  add_silhouettes(covered, cube, ws, Camera{});
+  const auto is_free = [&](Point middle) {
+    // As low as the smallest word.
+    const Rect word{middle.x - 0.03, middle.y - size::kTick / 2, middle.x + 0.03, middle.y + size::kTick / 2};
+    return std::ranges::none_of(covered, [&](const Obstacle& one) {
+      Point a = one.a, b = one.b;
+      return cut_segment(word, a, b);
+    });
+  };
+  const Point middle = Camera{}.project(Eigen::Vector3d::Zero());
+  const double half = 0.5 * Camera{}.scale;
+  for (double x = -0.9; x < 1; x += 0.3)
+    for (double y = -0.9; y < 1; y += 0.3) EXPECT_FALSE(is_free(middle + half * Point{x, y})) << x << " " << y;
+  EXPECT_TRUE(is_free(middle + Point{half + 0.04, 0}));
+  EXPECT_TRUE(is_free(middle + Point{0, -half - 0.02}));
 }
 
 TEST(EllipseScale, DrawsARoundMassNearTheMedianAsTheBar) {
