@@ -32,6 +32,8 @@ constexpr double kMostWhole = 0.7;     // of a field's ellipses have their long 
 constexpr double kCellOfFullLines = 0.2, kThinnestLines = 0.5;  // units of H; of the style guide's widths
 constexpr double kOpenReach = 0.2;     // of the room's shorter side: as far lead ellipses that are open, of several poses
 constexpr double kOpenBreadth = 0.25;  // of that: they are no broader to each side
+constexpr double kOfSign = 2;          // of their size: signs of infinity that are no farther apart are one
+constexpr double kMassesPitch = 1.35;  // of the em of a name: the masses below it
 constexpr double kSamePlace = 0.006;   // units of H: poses whose links and ellipses are no farther apart are one
 constexpr double kSmallestCell = 0.02;  // units of H: below, ellipses cannot be read
 
@@ -91,6 +93,9 @@ struct Overlay {
   Camera camera;
   EllipseScale scale;
   MarkLabels numbers;  // of semi-axes
+  bool names_masses = false;  // with the names of poses, not at the axes
+  int unnamed = 0;            // then: axes without numbers
+  bool is_filled = true;      // not where ellipses lie over one another
 
   Overlay(const Chain& c, const std::vector<Pose>& p, const PoseFigureOptions& o, const Fonts& f)
       : chain(c), poses(p), options(o), fonts(f), ws(c), skeleton(skeleton_of(c)), camera(view_of(c, o.camera)) {
@@ -147,17 +152,19 @@ struct Overlay {
     picture.add(std::move(trail), kSceneClip);
   }
 
-  void draw_ellipse(Picture& picture, const Pose& pose, const Rect& scene, EllipsePart part) {
+  void draw_ellipse(Picture& picture, const Pose& pose, const Rect& scene, EllipsePart part, bool signs = true) {
     stand_in(pose);
     const Eigen::Vector3d place = tip_position(chain, ws);
     const Point tip = camera.project(place);
     EllipseStyle style{options.theme, &fonts, options.text_scale, scale.per_unit(), scene, options.reading};
     style.part = part;
-    if (part == EllipsePart::above) style.labels = &numbers;
+    style.is_filled = is_filled;
+    style.signs = signs;
+    if (names_masses) style.unnamed = &unnamed;
+    if (part == EllipsePart::above && !names_masses) style.labels = &numbers;
     if (!options.shapes && !is_field()) style.hole = link_end(look_of(skeleton, camera, *options.theme));
     if (options.shapes) style.hides = robot_hides(*options.shapes, ws, camera, place);
-    const bool is_open = poses.size() > 1 && finite_of_open(pose, options.reading);
-    if (is_open) style.disc = kOpenReach * std::min(scene.width(), scene.height());
+    if (is_open(pose)) style.disc = reach_of_open(scene);
     int clip = kSceneClip;
     if (is_field()) {
       const double side = options.cell * camera.scale, half = side / 2;
@@ -214,27 +221,63 @@ struct Overlay {
     return groups;
   }
 
-  // Each pose by its name, or its q, near its end effector; a line leads there where names stand closely.
+  bool is_open(const Pose& pose) const { return poses.size() > 1 && finite_of_open(pose, options.reading); }
+  double reach_of_open(const Rect& scene) const { return kOpenReach * std::min(scene.width(), scene.height()); }
+
+  // What is seen of it.
+  NamedPlace place_of(const Pose& pose, const Rect& scene) {
+    stand_in(pose);
+    const Eigen::Vector3d tip = tip_position(chain, ws);
+    NamedPlace place{camera.project(tip), {}, curve_of(pose, camera.seen_at(tip))};
+    if (const double length = norm(place.curve[0]); is_open(pose) && length > reach_of_open(scene))
+      place.curve[0] = (reach_of_open(scene) / length) * place.curve[0];
+    return place;
+  }
+
+  // For each look whether it has signs of infinity: of several open ellipses close to one another the first alone.
+  std::vector<bool> signs_of(const std::vector<std::vector<std::size_t>>& groups, const Rect& scene) {
+    std::vector<bool> has_signs;
+    std::vector<Point> ends;
+    for (const std::vector<std::size_t>& group : groups) {
+      const NamedPlace place = place_of(poses[group.front()], scene);
+      // An axis has no sign: its upper end.
+      const Point end = place.tip + (place.curve[0].y < 0 ? -1 : 1) * place.curve[0];
+      const double apart = kOfSign * size::kSymbol * options.text_scale;
+      has_signs.push_back(std::ranges::none_of(ends, [&](Point other) { return norm(other - end) < apart; }));
+      if (is_open(poses[group.front()]) && has_signs.back()) ends.push_back(end);
+    }
+    return has_signs;
+  }
+
+  bool do_overlap(const std::vector<std::vector<std::size_t>>& groups, const Rect& scene) {
+    std::vector<NamedPlace> places;
+    for (const std::vector<std::size_t>& group : groups) places.push_back(place_of(poses[group.front()], scene));
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (curves_overlap(places[i], places[j])) return true;
+    return false;
+  }
+
+  // Each pose by its name, or its q, near its end effector or an end of its ellipse; a line leads there where names stand closely.
   void draw_labels(Picture& picture, const Rect& scene, const std::vector<std::vector<std::size_t>>& groups) {
     std::vector<NamedPlace> places;
     std::vector<Bar> bars;
     for (const std::vector<std::size_t>& group : groups) {
       const std::size_t i = group.front();
-      stand_in(poses[i]);
-      const Eigen::Vector3d tip = tip_position(chain, ws);
-      places.push_back({camera.project(tip), label_of(group), curve_of(poses[i], camera.seen_at(tip))});
+      places.push_back(place_of(poses[i], scene));
+      places.back().name = label_of(group);
       for (const LinkSegment& link : options.shapes ? std::vector<LinkSegment>() : skeleton.links)
         bars.push_back({camera.project(pose_of(ws, link.body) * link.from), camera.project(pose_of(ws, link.body) * link.to),
                         size::kLinkWidth / 2});
     }
     for (const Obstacle& body : bodies()) bars.push_back({body.a, body.b, body.radius});
-    const std::vector<PlacedName> placed = place_names(places, bars, scene);
+    const std::vector<PlacedName> placed = place_names(places, bars, scene, obstacles_of(picture));
     std::vector<StandingWord> plan;
     for (const PlacedName& one : placed) plan.push_back(one.word);
     MarkLabels labels(plan);
     for (std::size_t i = 0; i < places.size(); ++i) {
       MarkWord word{"pose", places[i].name, {placed[i].word.box}};
-      if (placed[i].has_leader) word.leader = Leader{places[i].tip, options.theme->ink};
+      if (placed[i].has_leader) word.leader = Leader{placed[i].to, options.theme->ink};
       labels.add(std::move(word));
     }
     labels.draw(picture, scene, options.theme->background, kSceneClip);
@@ -261,14 +304,53 @@ struct Overlay {
     return found;
   }
 
-  // By the names of all that look so; else by the pose.
+  // By the names of all that look so; else by the pose. Below it the masses, where its axes do not tell them.
   TextLine label_of(const std::vector<std::size_t>& group) const {
     const TextStyle style{Face::label, scaled(size::kAxis, options.text_scale), options.theme->ink, Align::left};
     std::vector<std::string> names;
     for (const std::size_t i : group)
       if (i < options.labels.size()) names.push_back(options.labels[i]);
-    if (!names.empty()) return lay_out_text(fonts, joined(names), style);
-    return lay_out_math(fonts, pose_notations(chain, poses[group.front()].q).front(), style);
+    const Pose& pose = poses[group.front()];
+    TextLine label = names.empty() ? lay_out_math(fonts, pose_notations(chain, pose.q).front(), style) : lay_out_text(fonts, joined(names), style);
+    if (!names_masses) return label;
+    const TextStyle small{Face::label, scaled(size::kTick, options.text_scale), options.theme->ellipse, Align::left};
+    TextLine masses = lay_out_text(fonts, masses_of(pose), small);
+    const Point below{0, -kMassesPitch * style.size};
+    for (GlyphRun& run : masses.runs) {
+      run.origin = run.origin + below;
+      label.runs.push_back(std::move(run));
+    }
+    label.box = around(label.box, moved(masses.box, below));
+    label.advance = std::max(label.advance, masses.advance);
+    return label;
+  }
+
+  // "3.36, 0.85 kg": the lengths of its semi-axes.
+  std::string masses_of(const Pose& pose) const {
+    std::vector<std::string> lengths;
+    for (const MassAxis& axis : pose.axes) {
+      const std::optional<double> length = semi_axis(axis, options.reading);
+      lengths.push_back(length ? format_digits(*length, 3) : "\u221E");
+    }
+    return joined(lengths) + (options.reading == EllipseReading::energy ? " m/s" : " kg");
+  }
+
+  // All poses that look different, with their names, on what is drawn; how many numbers have no room.
+  int draw_poses(Picture& picture, const Rect& room) {
+    numbers = {};
+    const std::vector<std::vector<std::size_t>> groups = looks();
+    const std::vector<bool> signs = signs_of(groups, room);
+    is_filled = !do_overlap(groups, room);
+    for (std::size_t i = 0; i < groups.size(); ++i) draw_ellipse(picture, poses[groups[i].front()], room, EllipsePart::below, signs[i]);
+    for (const auto& group : groups) draw_chain(picture, poses[group.front()], kOnionSkin);
+    for (std::size_t i = 0; i < groups.size(); ++i) draw_ellipse(picture, poses[groups[i].front()], room, EllipsePart::above, signs[i]);
+    for (const auto& group : groups) {
+      if (options.shapes) break;
+      stand_in(poses[group.front()]);
+      draw_end_effector(picture, camera.project(tip_position(chain, ws)), look_of(skeleton, camera, *options.theme), kSceneClip);
+    }
+    if (poses.size() > 1) draw_labels(picture, room, groups);
+    return draw_clear_of(picture, 0, numbers, bodies(), room, *options.theme, kSceneClip, poses.size() > 1);
   }
 };
 
@@ -302,23 +384,18 @@ Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, cons
             {chain, overlay.skeleton, overlay.camera,
              look_of(overlay.skeleton, overlay.camera, *options.theme), options.shapes.get()},
             kSceneClip);
+  int left_out = 0;
   if (overlay.is_field()) {
     overlay.draw_chain(picture, poses[roundest(poses)], kOnionSkin);
     for (const Pose& pose : poses) overlay.draw_ellipse(picture, pose, room, EllipsePart::whole);
   } else {
-    const std::vector<std::vector<std::size_t>> looks = overlay.looks();
-    for (const auto& look : looks) overlay.draw_ellipse(picture, poses[look.front()], room, EllipsePart::below);
-    for (const auto& look : looks) overlay.draw_chain(picture, poses[look.front()], kOnionSkin);
-    for (const auto& look : looks) overlay.draw_ellipse(picture, poses[look.front()], room, EllipsePart::above);
-    for (const auto& look : looks) {
-      if (options.shapes) break;
-      overlay.stand_in(poses[look.front()]);
-      draw_end_effector(picture, overlay.camera.project(tip_position(chain, overlay.ws)),
-                        look_of(overlay.skeleton, overlay.camera, *options.theme), kSceneClip);
-    }
-    if (poses.size() > 1) overlay.draw_labels(picture, room, looks);
+    Picture with_numbers = picture;
+    left_out = overlay.draw_poses(with_numbers, room);
+    // Where some have no room at their axes, all stand with the names.
+    overlay.names_masses = left_out > 0 && poses.size() > 1;
+    if (overlay.names_masses) left_out = overlay.draw_poses(picture, room);
+    else picture = std::move(with_numbers);
   }
-  const int left_out = draw_clear_of(picture, 0, overlay.numbers, overlay.bodies(), room, *options.theme, kSceneClip, poses.size() > 1);
   if (numbers_left_out != nullptr) *numbers_left_out = left_out;
   Sheet inside = sheet;
   inside.scene = room;

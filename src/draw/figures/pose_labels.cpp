@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "draw/layers/fading.hpp"
 
@@ -18,12 +19,16 @@ constexpr double kBetweenNumbers = 0.8;  // of their height
 constexpr double kAir = 0.010, kTipAir = 0.010;  // units of H, around a name and a tip
 // What a name pays for what it does, inwards from the middle of all tips at most kInward: for a unit it goes 0.1 H farther to
 // avoid it.
-constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 1.2, kOnBar = 0.5, kInward = 0.3, kPerH = 10;
+constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 1.2, kOnLine = 0.9, kOnBar = 0.5, kInward = 0.3, kPerH = 10;
+constexpr double kAtEnd = 0.1;  // of a name at an end of its curve
+constexpr double kLeastAtEnd = 0.03;  // units of H: a shorter leader to an end of a curve would be a blot on it
+constexpr double kOutward = 0.3;  // cosine: there it stands no farther aside
 constexpr double kOwnByFar = 0.6;  // of the way to the next tip: nearer names need no leader
 
 struct Candidate {
   Rect box;
   Point foot;  // where its leader begins
+  Point to;    // ... and where it leads
   double cost = 0;  // whatever the others do
 };
 
@@ -54,53 +59,88 @@ bool meets(const Rect& box, Point a, Point b) {
   return cut_segment(box, a, b);
 }
 
+// A place that a name may stand about; the ends of curves only outside of them.
+struct Anchor {
+  Point at;
+  std::optional<Point> outward;
+};
+std::vector<Anchor> anchors_of(const NamedPlace& place, const Rect& area) {
+  std::vector<Anchor> anchors{{place.tip, {}}};
+  const Point u = place.curve[0];
+  for (const double side : {1.0, -1.0})
+    if (norm(u) > kOff[0] && contains(area, place.tip + side * u)) anchors.push_back({place.tip + side * u, side * unit(u)});
+  return anchors;
+}
+
 std::vector<Candidate> candidates_of(std::size_t i, std::span<const NamedPlace> places, std::span<const Bar> bars,
-                                     const Rect& area) {
+                                     const Rect& area, std::span<const Obstacle> lines) {
   const NamedPlace& own = places[i];
   Point mean;
   for (const NamedPlace& place : places) mean = mean + (1.0 / double(places.size())) * place.tip;
   const Point outward = unit(own.tip - mean);
   std::vector<Candidate> candidates;
-  for (const double off : kOff)
-    for (int k = 0; k < kDirections; ++k) {
-      const double angle = std::numbers::pi / 2 + k * 2 * std::numbers::pi / kDirections;
-      const Point way{std::cos(angle), std::sin(angle)};
-      const Rect box = place_beyond(own.name, own.tip, off, way);
-      if (box.x0 < area.x0 || box.x1 > area.x1 || box.y0 < area.y0 || box.y1 > area.y1) continue;
-      Candidate one{box, nearest_in(box, own.tip), 0};
-      one.cost = kPerH * norm(own.tip - one.foot) + kInward * (1 - dot(way, outward)) / 2;
-      for (std::size_t j = 0; j < places.size(); ++j) {
-        if (is_on_curve(widened(box, kAir / 2), places[j])) one.cost += kOnCurve;
-        if (j == i || norm(places[j].tip - own.tip) < kTipAir) continue;
-        if (norm(places[j].tip - nearest_in(box, places[j].tip)) < kTipAir) one.cost += kOnTip;
-        if (distance_to(places[j].tip, one.foot, own.tip) < kTipAir) one.cost += kCrossing;
+  for (const Anchor& anchor : anchors_of(own, area))
+    for (const double off : kOff)
+      for (int k = 0; k < kDirections; ++k) {
+        const double angle = std::numbers::pi / 2 + k * 2 * std::numbers::pi / kDirections;
+        const Point way{std::cos(angle), std::sin(angle)};
+        if (anchor.outward && dot(way, *anchor.outward) < kOutward) continue;
+        const Rect box = place_beyond(own.name, anchor.at, off, way);
+        if (box.x0 < area.x0 || box.x1 > area.x1 || box.y0 < area.y0 || box.y1 > area.y1) continue;
+        Candidate one{box, nearest_in(box, anchor.at), anchor.at, anchor.outward ? kAtEnd : 0};
+        one.cost += kPerH * norm(anchor.at - one.foot) + kInward * (1 - dot(way, outward)) / 2;
+        for (std::size_t j = 0; j < places.size(); ++j) {
+          if (is_on_curve(widened(box, kAir / 2), places[j])) one.cost += kOnCurve;
+          if (j == i || norm(places[j].tip - own.tip) < kTipAir) continue;
+          if (norm(places[j].tip - nearest_in(box, places[j].tip)) < kTipAir) one.cost += kOnTip;
+          if (distance_to(places[j].tip, one.foot, anchor.at) < kTipAir) one.cost += kCrossing;
+        }
+        for (const Bar& bar : bars)
+          if (meets(widened(box, bar.half_width), bar.a, bar.b)) one.cost += kOnBar;
+        if (std::ranges::any_of(lines, [&](const Obstacle& line) { return meets(widened(box, line.radius + kAir / 2), line.a, line.b); }))
+          one.cost += kOnLine;
+        candidates.push_back(one);
       }
-      for (const Bar& bar : bars)
-        if (meets(widened(box, bar.half_width), bar.a, bar.b)) one.cost += kOnBar;
-      candidates.push_back(one);
-    }
   if (candidates.empty()) {
     const Rect box = moved_into(area, place_beyond(own.name, own.tip, kOff[0], {0, 1}));
-    candidates.push_back({box, nearest_in(box, own.tip), 0});
+    candidates.push_back({box, nearest_in(box, own.tip), own.tip, 0});
   }
   return candidates;
 }
 
-double cost_beside(const Candidate& one, Point tip, const Candidate& other, Point its_tip) {
+double cost_beside(const Candidate& one, const Candidate& other) {
   double cost = 0;
   if (overlap(widened(one.box, kAir / 2), widened(other.box, kAir / 2))) cost += kOnName;
-  if (segments_cross(one.foot, tip, other.foot, its_tip)) cost += kCrossing;
-  if (meets(one.box, other.foot, its_tip)) cost += kCrossing;
-  if (meets(other.box, one.foot, tip)) cost += kCrossing;
+  if (segments_cross(one.foot, one.to, other.foot, other.to)) cost += kCrossing;
+  if (meets(one.box, other.foot, other.to)) cost += kCrossing;
+  if (meets(other.box, one.foot, one.to)) cost += kCrossing;
   return cost;
 }
 
 }  // namespace
 
-std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::span<const Bar> bars, const Rect& area) {
+bool curves_overlap(const NamedPlace& one, const NamedPlace& other) {
+  // Of circles that would be apart nothing meets; of others some place of one lies in the other.
+  if (norm(one.tip - other.tip) > norm(one.curve[0]) + norm(other.curve[0])) return false;
+  const auto reaches_into = [](const NamedPlace& from, const NamedPlace& into) {
+    const Point u = into.curve[0], v = into.curve[1];
+    const double uu = dot(u, u), vv = dot(v, v);
+    if (!(uu > 0) || !(vv > 0)) return false;
+    for (int i = 0; i < kCurvePlaces; ++i) {
+      const double angle = i * 2 * std::numbers::pi / kCurvePlaces;
+      const Point p = from.tip + std::cos(angle) * from.curve[0] + std::sin(angle) * from.curve[1] - into.tip;
+      if (std::hypot(dot(p, u) / uu, dot(p, v) / vv) < 1) return true;
+    }
+    return false;
+  };
+  return reaches_into(one, other) || reaches_into(other, one);
+}
+
+std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::span<const Bar> bars, const Rect& area,
+                                    std::span<const Obstacle> lines) {
   const std::size_t count = places.size();
   std::vector<std::vector<Candidate>> candidates;
-  for (std::size_t i = 0; i < count; ++i) candidates.push_back(candidates_of(i, places, bars, area));
+  for (std::size_t i = 0; i < count; ++i) candidates.push_back(candidates_of(i, places, bars, area, lines));
   std::vector<std::size_t> taken(count, 0);
   const auto at = [&](std::size_t i) -> const Candidate& { return candidates[i][taken[i]]; };
   for (int round = 0; round < kRounds; ++round) {
@@ -110,7 +150,7 @@ std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::spa
         double cost = one.cost;
         // In the first round those that follow have no place yet.
         for (std::size_t j = 0; j < (round == 0 ? i : count); ++j)
-          if (j != i) cost += cost_beside(one, places[i].tip, at(j), places[j].tip);
+          if (j != i) cost += cost_beside(one, at(j));
         return cost;
       };
       std::size_t best = taken[i];
@@ -126,10 +166,12 @@ std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::spa
   for (std::size_t i = 0; i < count; ++i) {
     double next = HUGE_VAL;
     for (std::size_t j = 0; j < count; ++j)
-      if (j != i) next = std::min(next, norm(places[j].tip - nearest_in(at(i).box, places[j].tip)));
+      for (const Anchor& other : j == i ? std::vector<Anchor>() : anchors_of(places[j], area))
+        next = std::min(next, norm(other.at - nearest_in(at(i).box, other.at)));
     bool stands = true;
     for (std::size_t j = 0; j < i; ++j) stands = stands && !(placed[j].word.opacity > 0 && overlap(at(i).box, at(j).box));
-    placed.push_back({{at(i).box, stands ? 1.0 : 0.0}, norm(places[i].tip - at(i).foot) > kOwnByFar * next});
+    const double way = norm(at(i).to - at(i).foot), shortest = norm(at(i).to - places[i].tip) > 0 ? kLeastAtEnd : 0;
+    placed.push_back({{at(i).box, stands ? 1.0 : 0.0}, way > std::max(kOwnByFar * next, shortest), at(i).to});
   }
   return placed;
 }

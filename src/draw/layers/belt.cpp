@@ -148,7 +148,7 @@ void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, cons
     const Point a = half[i], b = half[i + 1];
     const auto page = [&](double x, double y) { return center + x * along + y * across; };
     fill_piece(picture, {page(a.x, a.y), page(b.x, b.y), page(b.x, -height(-b.x)), page(a.x, -height(-a.x))},
-               style.theme->ellipse.faded(kSilhouetteFill), fade, clip);
+               fill_of(style, kSilhouetteFill), fade, clip);
   }
   for_each_stroke(style, [&](const Stroke& stroke) {
     draw_outline(picture, outline, stroke.width(size::kEllipseLine, style), stroke.color, fade, clip);
@@ -159,7 +159,6 @@ void draw_surface(Picture& picture, const Eigen::Matrix3d& A, Point center, cons
 
 void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center, const Camera& camera,
                const EllipseStyle& style, int clip) {
-  const Color line = style.theme->ellipse;
   std::vector<Point> page;  // for 1 kg
   std::vector<double> mobility;
   std::vector<bool> open;
@@ -185,7 +184,7 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
           draw_plane_belt(picture, {page[i], page[j], mobility[i], mobility[j]}, center, width, fill, stroke,
                           style, clip);
   };
-  if (style.draws_below() && !solid) draw_planes(0, line.faded(kEllipseFill), {});
+  if (style.draws_below() && !solid) draw_planes(0, fill_of(style), {});
   for_each_stroke(style, [&](const Stroke& stroke) {
     draw_planes(stroke.width(solid ? size::kEllipseAxis : size::kEllipseLine, style), {}, stroke.color);
     for (std::size_t i = 0; i < axes.size(); ++i) {

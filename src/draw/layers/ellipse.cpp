@@ -63,7 +63,7 @@ void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point cent
   const Spread spread = spread_of(axes);
   const Fade fade = fade_of(style.scene, center, spread, style.fade);
   const std::array<Point, 2> outline = spread.axes();
-  const Color fill = style.theme->ellipse.faded(kEllipseFill);
+  const Color fill = fill_of(style);
   if (style.part == EllipsePart::below) draw_ellipse(picture, center, outline, {fill, {}, 0}, fade, clip);
   for_each_stroke(style, [&](const Stroke& stroke) {
     const double width = stroke.width(size::kEllipseLine, style);
@@ -100,9 +100,9 @@ void draw_fading_line(Picture& picture, Point p, Point d, const Stroke& stroke, 
 }
 
 // The fill between the lines.
-void draw_fading_fill(Picture& picture, Point center, Point half_width, const Fade& fade, Color line, int clip) {
+void draw_fading_fill(Picture& picture, Point center, Point half_width, const Fade& fade, Color fill, int clip) {
   const Rect& r = fade.scene;
-  Polygon band{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {line.faded(kEllipseFill), {}, 0}};
+  Polygon band{{Point{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}, 4, {fill, {}, 0}};
   band = cut(cut(band, center + half_width, -1 * half_width), center - half_width, half_width);
   band.fade = fade;
   if (band.count >= 3) picture.add(band, clip);
@@ -135,7 +135,7 @@ void draw_in_disc(Picture& picture, Point center, Point u, Point v, const Ellips
   }
   for (const Point p : upper) lower.push_back(2 * center - p);
   const double width = style.lines * size::kEllipseLine;
-  if (b > kNoLength) fill_between(picture, upper, lower, line.faded(kEllipseFill), Fade{style.scene}, clip);
+  if (b > kNoLength && style.is_filled) fill_between(picture, upper, lower, fill_of(style), Fade{style.scene}, clip);
   stroke(outline, width);
   for (Point& p : outline) p = -1 * p;
   stroke(outline, width);
@@ -168,7 +168,7 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
   band.add(2 * kBeyond * d);
   band.add(half_width * n);
   const Fade fade = fade_of(style.scene, center, band, style.fade);
-  if (style.draws_below()) draw_fading_fill(picture, center, half_width * n, fade, style.theme->ellipse, clip);
+  if (style.draws_below() && style.is_filled) draw_fading_fill(picture, center, half_width * n, fade, fill_of(style), clip);
   for_each_stroke(style, [&](const Stroke& stroke) {
     const double width = stroke.width(size::kEllipseAxis, style);
     for (const double side : {-1.0, 1.0})

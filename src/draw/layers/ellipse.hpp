@@ -101,6 +101,7 @@ struct EllipseStyle {
   EllipsePart part = EllipsePart::whole;
   Hides hides = nullptr;  // of a robot in space
   double hole = 0;        // units of H: axes begin at the end of the link about the middle, whose outline they would cut
+  bool is_filled = true;  // not where several lie over one another
   double disc = 0;        // units of H; above 0: what is seen of the curve lies in this circle about its middle
 
   bool draws_below() const { return part != EllipsePart::above; }

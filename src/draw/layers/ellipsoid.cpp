@@ -47,7 +47,7 @@ class Ellipsoid {
     const Color line = style_.theme->ellipse;
     const std::array<Point, 2> outline = spread_.axes();
     if (style_.draws_below()) {
-      draw_ellipse(picture, center_, outline, {line.faded(kSilhouetteFill), {}, 0}, fade_, clip);
+      draw_ellipse(picture, center_, outline, {fill_of(style_, kSilhouetteFill), {}, 0}, fade_, clip);
       for (const Line& far : far_lines()) draw_dashed(picture, on_page(far), style_.lines * kFarLine, line.faded(kFarOpacity), clip);
     }
     const bool has_inside = norm(outline[1]) > kNoLength;

@@ -94,6 +94,11 @@ inline constexpr const char* kLengthAtEdge = "length";
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style);
 Fade fade_before_infinity(Point d, const Fade& whole, const EllipseStyle& style);
 
+// Of the inside of a curve.
+inline Color fill_of(const EllipseStyle& style, double opacity = kEllipseFill) {
+  return style.is_filled ? style.theme->ellipse.faded(opacity) : Color{};
+}
+
 // One stroke of the lines: those of a curve over a chain are drawn twice, first wider in the background's colour.
 struct Stroke {
   Color color;

@@ -103,6 +103,34 @@ TEST(Superposed, NamesPosesFarFromOneAnotherWithoutLines) {
   EXPECT_TRUE(test::all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.fill == light_theme().ink && c.radius < 0.002; }).empty());
 }
 
+// Each masses with its name, at the outer ends of ellipses that lie on one another, of which the lines alone are seen.
+TEST(Superposed, TellsAllMassesWhereTheirAxesHaveNoRoom) {
+  const std::vector<std::vector<double>> close{{0, 1.0}, {0.05, 1.0}, {0.1, 1.0}, {0.15, 1.0}};
+  const auto filled = [](const Picture& picture) { return test::all_of<Ellipse>(picture, [](const Ellipse& e) { return e.paint.fill.a > 0 && e.paint.fill == light_theme().ellipse.faded(0.16); }).size(); };
+  const auto masses = [](const Picture& picture) { return test::all_of<GlyphRun>(picture, [](const GlyphRun& run) { return run.text.ends_with(" kg") && run.text.find(", ") != std::string::npos && run.stroke_width == 0; }).size(); };
+  int left_out = 0;
+  const Picture crowd = draw_ellipse_figure(TipMass(test::model("rr")), close, with_layout("superposed"), fonts(), &left_out);
+  EXPECT_EQ(left_out, 0);
+  EXPECT_EQ(masses(crowd), close.size());
+  EXPECT_EQ(filled(crowd), 0u);
+  const std::vector<std::vector<double>> apart{{0, 1.5}, {3.1, 1.5}};
+  const Picture two = draw_ellipse_figure(TipMass(test::model("rr")), apart, with_layout("superposed"), fonts());
+  EXPECT_GE(filled(two), apart.size());
+}
+
+TEST(PoseLabels, StandOffTheLinesThatAreDrawn) {
+  const Rect area{0, 0, 1.7, 1};
+  const std::vector<NamedPlace> places{{{0.8, 0.5}, lay_out_text(fonts(), "t = 1 s", {Face::label, 0.028, light_theme().ink, Align::left}), {}}};
+  const auto lies_on = [&](const std::vector<Obstacle>& lines) {
+    const Rect box = place_names(places, {}, area, lines).front().word.box;
+    return std::ranges::any_of(lines, [&](Obstacle line) { return cut_segment(box, line.a, line.b); });
+  };
+  // Where it would stand were there nothing, and a line across it.
+  const Rect free = place_names(places, {}, area).front().word.box;
+  const Point middle{(free.x0 + free.x1) / 2, (free.y0 + free.y1) / 2};
+  EXPECT_FALSE(lies_on({{{middle.x - 0.3, middle.y}, {middle.x + 0.3, middle.y}, 0.001, false}}));
+}
+
 // Very many, on one another, or none at all: no name covers another, and it comes to an end.
 TEST(PoseLabels, StandOffOneAnotherInAnyCrowd) {
   const Rect area{0, 0, 1.7, 1};
