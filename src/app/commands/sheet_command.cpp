@@ -50,6 +50,7 @@ void leave_out_faces(Scene& scene, bool quiet) {
 }
 
 constexpr double kLargestNames = 0.1;  // of panels, units of the picture's height: larger ones leave their panels no room
+constexpr double kNoNames = 1e-6;      // of which nothing is seen
 
 // What a small picture shows: all that is drawn, without the words around it.
 void set_for_cell(Scene& scene, ThemeName theme, const ContactGrid& grid) {
@@ -57,7 +58,7 @@ void set_for_cell(Scene& scene, ThemeName theme, const ContactGrid& grid) {
   scene.video.height = 1000;
   scene.video.width = int(std::lround(scene.video.height * grid.page_aspect()));
   scene.video.preset = Preset::overlay;
-  scene.video.panel_names = grid.smallest_in_cell() <= kLargestNames ? grid.smallest_in_cell() : 0;
+  scene.video.panel_names = grid.smallest_in_cell() <= kLargestNames ? grid.smallest_in_cell() : kNoNames;
   scene.theme = theme;
   scene.text_scale = text_scale;
   if (scene.layout == PageLayout::automatic) scene.layout = PageLayout::scene;
@@ -96,6 +97,7 @@ AskedOfScenes instants_of(const SheetOptions& options) {
 }
 
 constexpr double kSheetOfPaper = 1.41421356237309505;  // height over width of A4 upright
+constexpr double kTallestColumn = 240;                 // mm: of a page narrower than that, what a journal's column is high
 
 constexpr double kWordsOfPaper = 1.35;  // times the smallest that can be read: 9.5 pt
 
@@ -104,15 +106,21 @@ struct SheetSize {
   double text_scale = 1;
   double least_text = size::kTick;
 };
+SheetSize size_on_paper(const SheetOptions& options, double height_mm) {
+  const PaperPage page = paper_page(options.paper, height_mm);
+  return {page.width, page.height, text_scale_on(page, kWordsOfPaper * text_scale_of(options.common.flags)), page.least_text};
+}
+double tallest_sheet(const SheetOptions& options) {
+  return std::min(std::max(std::round(kSheetOfPaper * options.paper.width_mm), kTallestColumn), tallest_page(options.paper));
+}
 SheetSize size_of(const SheetOptions& options) {
   check_paper(options.paper, options.width > 0 || options.height > 0);
+  if (options.paper.is_given()) return size_on_paper(options, tallest_sheet(options));
   SheetSize size;
   size.text_scale = text_scale_of(options.common.flags);
   if (options.width > 0) size.width = options.width;
   if (options.height > 0) size.height = options.height;
-  if (!options.paper.is_given()) return size;
-  const PaperPage page = paper_page(options.paper, std::round(kSheetOfPaper * options.paper.width_mm));
-  return {page.width, page.height, text_scale_on(page, kWordsOfPaper * size.text_scale), page.least_text};
+  return size;
 }
 
 // Plots that a scene asks for would have no room in a cell.
@@ -126,27 +134,73 @@ void leave_out_plots(Scene& scene, bool quiet) {
 
 // What all cells of a page share.
 struct Page {
-  ThemeName theme;
+  const SheetOptions& options;
   ContactSheetLook look;
+  ThemeName theme;
   std::size_t count;  // of cells
-  ContactGrid grid = contact_grid(int(std::min<std::size_t>(count, kMostCells + 1)), look);
   const AskedOfScenes& asked;
-  std::size_t scenes;
+  SheetSize size{};
+  ContactGrid grid{};
 
   // The title of the only scene stands above its instants.
-  bool is_of_one() const { return scenes == 1 && count > 1; }
+  bool is_of_one() const { return options.scenes.size() == 1 && count > 1; }
+  void lay_out();
   void set_title(const std::string& title) {
     look.title = title;
-    grid = contact_grid(int(count), look);
+    lay_out();
+  }
+
+ private:
+  bool has_own_height() const { return options.paper.is_given() && options.paper.height_mm == PaperOptions::kNotGiven; }
+  void fit_to_paper();
+  void set_size(const SheetSize& chosen) {
+    size = chosen;
+    look.aspect = double(size.width) / size.height;
+    look.text_scale = size.text_scale;
+    look.least_text = size.least_text;
   }
 };
 
-// Instants that were asked for say which they are; of several scenes whose.
-std::string title_of_cell(const Moment& moment, const Scene& scene, const std::string& file, const Page& page) {
+void Page::lay_out() {
+  look.columns = options.columns;
+  set_size(size_of(options));
+  if (has_own_height()) fit_to_paper();
+  grid = contact_grid(int(std::min<std::size_t>(count, kMostCells + 1)), look);
+}
+
+// A page as high as its rows. Large pictures are worth a higher page: up to where they are as wide as their columns.
+void Page::fit_to_paper() {
+  constexpr int kMostAcross = 6;
+  constexpr double kLowest = 0.1, kStep = 1, kHeight = 0.25;  // of the width; mm; power of what a higher page costs
+  if (count > kMostCells) return;
+  const ContactSheetLook asked_for = look;
+  const double tallest = tallest_sheet(options);
+  double best = 0, height = tallest;
+  int columns = look.columns;
+  for (int across = std::max(options.columns, 1); across <= (options.columns > 0 ? options.columns : std::min(int(count), kMostAcross)); ++across)
+    for (double tried = std::ceil(kLowest * options.paper.width_mm); tried <= tallest; tried += kStep) {
+      set_size(size_on_paper(options, tried));
+      look.columns = across;
+      double merit = 0;
+      try {
+        merit = contact_grid(int(count), look).pictures[0].width() / look.aspect / std::pow(tried, kHeight);
+      } catch (const Error&) {
+        continue;  // too low for its words
+      }
+      if (merit > best) best = merit, height = tried, columns = across;
+    }
+  look = asked_for;
+  set_size(size_on_paper(options, height));
+  look.columns = columns;
+}
+
+// Of several pictures each says which instant it is; of several scenes whose.
+std::string title_of_cell(const Moment& moment, const Scene& scene, const Page& page) {
   const std::string title = moment.title.empty() ? scene.name : moment.title;
-  if (page.asked.of(file).empty() || (page.scenes == 1 && !page.is_of_one())) return title;
+  const bool is_only_scene = page.options.scenes.size() == 1;
+  if (is_only_scene && !page.is_of_one()) return title;
   const std::string time = time_text(moment.at);
-  return page.scenes == 1 ? time : time + ": " + title;
+  return is_only_scene ? time : time + ": " + title;
 }
 
 // Of one scene at several instants: what its run tells of itself, `{fall}`, stands there, too.
@@ -164,7 +218,7 @@ std::vector<ContactCell> cells_of(const std::string& file, const SheetOptions& o
   for (PreparedScene& panel : film.panels) panel.scene.plot.clear();
   if (page.is_of_one() && page.look.title.empty()) page.set_title(title_of_run(film, file));
   set_for_cell(film.scene, page.theme, page.grid);
-  if (film.panels.size() > 1 && film.scene.video.panel_names == 0 && !options.common.quiet)
+  if (film.panels.size() > 1 && film.scene.video.panel_names == kNoNames && !options.common.quiet)
     std::fprintf(stderr, "note: %s: the names of its panels have no room in pictures so small: take fewer --columns, or a sheet of fewer pictures\n", film.scene.name.c_str());
   for (PreparedScene& panel : film.panels) set_for_cell(panel.scene, page.theme, page.grid);
   std::vector<AskedInstant> asked = page.asked.of(file);
@@ -179,7 +233,7 @@ std::vector<ContactCell> cells_of(const std::string& file, const SheetOptions& o
     if (cells.empty()) tell_warnings(moment.warnings);
     told.push_back({{"scene", file}});
     told.back().update(moment.numbers);
-    cells.push_back({std::move(moment.picture), title_of_cell(moment, film.scene, file, page)});
+    cells.push_back({std::move(moment.picture), title_of_cell(moment, film.scene, page)});
   }
   return cells;
 }
@@ -205,6 +259,15 @@ std::vector<ContactCell> cells_of(const SheetOptions& options, Page& page, Json&
   }
   if (!problems.empty()) throw Error(code, std::move(problems));
   return all;
+}
+
+// Below each picture its title stands whole, on as many lines as the longest one takes.
+void give_room_to_titles(Page& page, const std::vector<ContactCell>& cells) {
+  constexpr int kMostLines = 5;
+  while (page.grid.title_lines < kMostLines && title_lines_of(page.grid, cells, page.look) > page.grid.title_lines) {
+    page.look.title_lines = page.grid.title_lines + 1;
+    page.lay_out();
+  }
 }
 
 // It shows no scene of its own but many: the command is remembered.
@@ -239,18 +302,18 @@ void run_sheet(const SheetOptions& options) {
   for (const std::string& file : options.scenes) count += asked.cells_of(file);
   const ThemeName theme = theme_of(options.common.flags);
   const Fonts fonts;
-  const SheetSize size = size_of(options);
-  Page page{.theme = theme,
-            .look = {double(size.width) / size.height, options.columns, options.title, size.text_scale, size.least_text, &theme_named(to_string(theme)), &fonts},
-            .count = count,
-            .asked = asked,
-            .scenes = options.scenes.size()};
+  Page page{.options = options, .look = {}, .theme = theme, .count = count, .asked = asked};
+  page.look.title = options.title;
+  page.look.theme = &theme_named(to_string(theme));
+  page.look.fonts = &fonts;
+  page.lay_out();
   Json told = Json::array();
   const std::vector<ContactCell> cells = cells_of(options, page, told);
+  give_room_to_titles(page, cells);
   const Picture sheet = draw_contact_sheet(page.grid, cells, page.look);
   ClipMemory memory = memory_of_sheet(*options.command, page.look.title, cells);
   if (options.paper.is_given()) memory.width_mm = options.paper.width_mm;
-  for (const std::string& output : outputs) write_picture(sheet, size.width, size.height, fonts, output, options.common.force, memory);
+  for (const std::string& output : outputs) write_picture(sheet, page.size.width, page.size.height, fonts, output, options.common.force, memory);
   tell_files(options.common, outputs, [&] { return Json{{"columns", page.grid.columns}, {"lines", page.grid.lines}, {"cells", told}}; });
 }
 
@@ -270,7 +333,7 @@ void add_sheet_command(CommandLine& app) {
       .range(1, kMostCells);
   command->add_option("--width", options->width, "pixels (default 1920)").range(16, 16384);
   command->add_option("--height", options->height, "pixels (default 1080)").range(16, 16384);
-  add_paper_options(*command, options->paper, "that of an upright sheet, 297 for a width of 210");
+  add_paper_options(*command, options->paper, "that of its rows");
   add_scene_flags(*command, options->common.flags, FlagGroup::look);
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);

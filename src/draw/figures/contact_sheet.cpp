@@ -1,6 +1,7 @@
 #include "draw/figures/contact_sheet.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.hpp"
 #include "draw/page/sheet.hpp"
@@ -82,7 +83,7 @@ Cut cut_page(int columns, int lines, const Rect& inside, const ContactSheetLook&
   Cut cut;
   cut.width = (inside.width() - (columns - 1) * kBetweenColumns) / columns;
   const bool wide = cut.width >= kWideCell;
-  cut.title_lines = wide ? 1 : 2;
+  cut.title_lines = std::max(wide ? 1 : 2, look.title_lines);
   cut.text_size = look.words_of(wide ? size::kAxis : kSmallestText);
   cut.caption = (kTitleAir + cut.title_lines * kTitlePitch) * cut.text_size;
   const double room = (inside.height() - (lines - 1) * kBetweenColumns) / lines - cut.caption;
@@ -127,11 +128,14 @@ std::string shortened(const std::string& text, double size, double width, const 
   return kEllipsis;
 }
 
+std::vector<std::string> lines_of_title(const std::string& title, double size, double width, int most, const ContactSheetLook& look) {
+  return broken_into_lines(title, most, [&](const std::string& words) { return title_line(words, size, look).advance <= width; });
+}
+
 // What is left over is cut off in the last.
 std::vector<std::string> broken_title(const std::string& title, double size, double width, int most,
                                       const ContactSheetLook& look) {
-  std::vector<std::string> lines =
-      broken_into_lines(title, most, [&](const std::string& words) { return title_line(words, size, look).advance <= width; });
+  std::vector<std::string> lines = lines_of_title(title, size, width, most, look);
   for (std::string& line : lines)
     if (title_line(line, size, look).advance > width) line = shortened(line, size, width, look);
   return lines;
@@ -181,6 +185,13 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
 double text_scale_in(const ContactGrid& grid) {
   const double scale = grid.smallest_in_cell() / size::kAxis;
   return scale <= kLargestWords ? std::max(scale, 1.0) : kNoWords;
+}
+
+int title_lines_of(const ContactGrid& grid, std::span<const ContactCell> cells, const ContactSheetLook& look) {
+  int most = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    most = std::max(most, int(lines_of_title(cells[i].title, grid.text_size, grid.titles[i].width(), std::numeric_limits<int>::max(), look).size()));
+  return most;
 }
 
 Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell> cells,

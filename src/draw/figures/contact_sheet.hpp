@@ -24,6 +24,7 @@ struct ContactSheetLook {
   double least_text = size::kTick;  // units of H: no word is lower; of a page of paper less
   const Theme* theme = &light_theme();
   const Fonts* fonts = nullptr;
+  int title_lines = 0;  // of the longest caption, if it needs more than are usual
 
   double words_of(double size) const { return text_scale < 1 ? std::max(size * text_scale, least_text) : scaled(size, text_scale); }
   bool is_paper() const { return least_text < size::kTick; }
@@ -58,6 +59,8 @@ struct ContactCell {
   Picture picture;  // of the grid's page_aspect
   std::string title;
 };
+// How many lines the longest title takes.
+int title_lines_of(const ContactGrid& grid, std::span<const ContactCell> cells, const ContactSheetLook& look);
 // One cell a place of the grid. Titles are broken into lines at spaces; what does not fit ends in "...".
 Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell> cells,
                            const ContactSheetLook& look);

@@ -62,20 +62,21 @@ Picture Film::page() const {
   return picture;
 }
 
-// Those of a page that is a cell of a sheet, which frames it, have no edge where it has one.
 void Film::draw_cell_frames(Picture& picture) const {
-  const bool is_framed = stage_->page.video.panel_names > 0;
-  const Rect& whole = sheet_.sheet.scene;
   const Paint paint{stage_->theme.rule, {}, 0};
+  const auto line = [&](Point a, Point b) { picture.add(Capsule{a, b, size::kFrameLine / 2, paint}); };
+  const Rect& whole = sheet_.sheet.scene;
   for (const PanelCell& cell : view_.cells) {
     const Rect& r = cell.scene;
-    const auto edge = [&](Point a, Point b, bool is_outer) {
-      if (!(is_framed && is_outer)) picture.add(Capsule{a, b, size::kFrameLine / 2, paint});
-    };
-    edge({r.x0, r.y0}, {r.x1, r.y0}, r.y0 <= whole.y0 + kRoundOff);
-    edge({r.x1, r.y0}, {r.x1, r.y1}, r.x1 >= whole.x1 - kRoundOff);
-    edge({r.x1, r.y1}, {r.x0, r.y1}, r.y1 >= whole.y1 - kRoundOff);
-    edge({r.x0, r.y1}, {r.x0, r.y0}, r.x0 <= whole.x0 + kRoundOff);
+    if (!(stage_->page.video.panel_names > 0)) {
+      const Point corners[] = {{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}};
+      for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4]);
+      continue;
+    }
+    // A sheet frames its cells: within them a line between panels will do.
+    const double x = r.x1 + size::kGutter / 2, y = cell.title.y1 + size::kGutter / 2;
+    if (x < whole.x1) line({x, cell.note.y0}, {x, cell.title.y1});
+    if (y < whole.y1) line({r.x0, y}, {r.x1, y});
   }
 }
 

@@ -76,7 +76,7 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, doub
   const std::vector<PanelCell> cells =
       stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
       : stage.page.layout == PageLayout::compare ? panel_cells(area, count, side_by_side(stage, sheet, area) ? count : 1, sheet.rows)
-                                        : best_cells(area, count, sheet.rows, box, sheet.widest_title(stage), is_paper(stage.page));
+                                        : best_cells(area, count, sheet.rows, box, sheet.widest_title(stage), is_paper(stage.page), stage.page.video.panel_names > 0);
   if (cells.empty())
     throw Error(ExitCode::bad_input,
                 "the panels get too small on this page: compare fewer, or lower text_scale",

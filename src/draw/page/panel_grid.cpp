@@ -35,19 +35,20 @@ std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, con
   return cells;
 }
 
-std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box, double least_width, bool keeps_width) {
+std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box, double least_width, bool keeps_width, bool is_full) {
   std::vector<PanelCell> best;
   double best_worth = 0;
   for (int lines = 1; lines <= count; ++lines) {
     const int columns = (count + lines - 1) / lines;  // as few as these lines allow: no line is nearly empty
     if ((lines - 1) * columns >= count) continue;     // a line would stay empty
+    if (is_full && lines * columns != count) continue;
     std::vector<PanelCell> cells = panel_cells(area, count, columns, rows);
     if (!is_large_enough(cells[0].scene)) continue;
     if (keeps_width && columns > 1 && cells[0].scene.width() < least_width) continue;
     Camera camera;
     fit_to(camera, box, cells[0].scene, size::kFitMargin);
-    const bool is_full = lines * columns == count && cells[0].scene.width() >= least_width;
-    const double worth = (is_full ? kWorthOfFull : 1) * camera.scale;
+    const bool has_no_gap = lines * columns == count && cells[0].scene.width() >= least_width;
+    const double worth = (has_no_gap ? kWorthOfFull : 1) * camera.scale;
     if (worth > best_worth) {
       best_worth = worth;
       best = std::move(cells);

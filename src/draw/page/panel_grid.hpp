@@ -25,9 +25,9 @@ std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, con
 
 // The arrangement in which what is in `box`, the same for all panels, is largest; one without empty cells is taken where it is
 // nearly as large and its panels are at least `least_width` wide. With `keeps_width` narrower ones stand alone in their
-// lines or not at all.
+// lines or not at all; with `is_full` no arrangement has an empty cell.
 std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box, double least_width = 0,
-                                  bool keeps_width = false);
+                                  bool keeps_width = false, bool is_full = false);
 
 // Size of the marks of joints and ground in a panel this large, or in one of these: 1 for one that fills the page.
 double marks_in(const Rect& scene);
