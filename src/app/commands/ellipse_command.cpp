@@ -266,6 +266,8 @@ void run_ellipse(const EllipseOptions& options) {
   const bool is_drawn = !std::all_of(outputs.begin(), outputs.end(), is_table_path);
   if (options.paper.is_given() && options.joint_space && is_drawn) set_joint_space_on_paper(job, options, joints, fonts);
   if (options.paper.is_given() && !options.joint_space && is_drawn) put_on_paper(job.figure, options.paper, tip, poses.q, fonts);
+  const bool is_row_of_free_height = figure.layout == "row" && !options.joint_space && !options.paper.is_given() && options.height == 0 && is_model_file(options.model);
+  if (is_row_of_free_height && is_drawn) cut_row(job.figure, tip, poses.q, fonts);
   if (!options.joint_space && is_drawn) tell_missing_masses(job, options, tip, fonts);
   ClipMemory memory =
       memory_of_figure(*options.command, figure.title, is_model_file(options.model) ? options.model : "", poses.q);
@@ -334,7 +336,7 @@ void add_ellipse_command(CommandLine& app) {
   command->add_option("--shape", options->shape, "of arms in space: ellipsoid, or section by the xy plane of the end effector")
       .one_of(words_of(names_of(EllipseShape{})));
   command->add_option("--width", options->width, "pixels").range(16, 16384);
-  command->add_option("--height", options->height, "pixels").range(16, 16384);
+  command->add_option("--height", options->height, "pixels (default: of a --layout row what its panels need)").range(16, 16384);
   add_paper_options(*command, options->paper, "what suits the poses");
   command->add_flag("--letters", options->letters, "(a), (b), .. before the captions of panels");
   add_scene_options(*command, options->common);

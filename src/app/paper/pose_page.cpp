@@ -82,4 +82,16 @@ void put_on_paper(PoseFigureOptions& figure, const PaperOptions& paper, const Ti
   figure = page(std::ceil(best.height), best_across);
 }
 
+void cut_row(PoseFigureOptions& figure, const TipMass& tip, const std::vector<std::vector<double>>& poses, const Fonts& fonts) {
+  const PoseFigureOptions slide = figure;
+  const auto page = [&](double height) {
+    PoseFigureOptions tried = slide;
+    tried.height = 2 * int(std::ceil(height / 2));
+    tried.text_scale = slide.text_scale * slide.height / tried.height;  // of the page's height
+    return tried;
+  };
+  const PageOfPoses best = page_of_poses([&](double height) { return fit_of_poses(tip, poses, page(height), fonts); }, slide.height, slide.width, false);
+  if (best.words >= 0) figure = page(best.height);
+}
+
 }  // namespace chainreel

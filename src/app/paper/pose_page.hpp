@@ -15,4 +15,7 @@ void set_page(PoseFigureOptions& figure, const PaperPage& page, double text_scal
 void put_on_paper(PoseFigureOptions& figure, const PaperOptions& paper, const TipMass& tip, const std::vector<std::vector<double>>& poses,
                   const Fonts& fonts);
 
+// A row of panels in pixels: no higher than they need, with words as large as on a slide of that width.
+void cut_row(PoseFigureOptions& figure, const TipMass& tip, const std::vector<std::vector<double>>& poses, const Fonts& fonts);
+
 }  // namespace chainreel

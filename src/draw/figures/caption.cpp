@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/format.hpp"
+#include "draw/layers/ellipse.hpp"
 #include "draw/page/sheet.hpp"
 
 namespace chainreel {
@@ -155,38 +156,21 @@ std::vector<std::vector<std::string>> matrix_notations(const Eigen::MatrixXd& La
   return are_whole ? plain : written(&entry_notation);
 }
 
-std::string singular_text(const EffectiveMass& effective) {
-  std::string text = "\u039B: infinite along";
-  const char* between = " ";
-  for (const Eigen::VectorXd& direction : effective.singular_directions) {
-    Eigen::Index leading = 0;
-    direction.cwiseAbs().maxCoeff(&leading);
-    // A direction and its opposite are the same: the larger component is shown positive.
-    const double sign = direction(leading) < 0 ? -1 : 1;
-    std::vector<std::string> entries;
-    for (const double component : direction) {
-      std::string entry = number_notation(sign * component, 1);
-      if (entry.starts_with('-')) entry.replace(0, 1, "\u2212");
-      entries.push_back(entry);
-    }
-    text += between + list_of(entries);
-    between = " and ";
-  }
-  return text;
-}
-
 double caption_height(int rows, double text_scale) {
   return scaled(size::kAxis, text_scale) * (kToMatrix + std::max(rows, 1) * kMatrixRow + 0.5);
 }
 
 bool matrix_fits(const EffectiveMass& effective, double width, double text_scale, const Theme& theme,
                  const Fonts& fonts) {
-  if (!effective.Lambda) {
-    const TextStyle words{Face::label, scaled(kSmallestText, text_scale), theme.ink, Align::left};
-    return lay_out_text(fonts, singular_text(effective), words).advance <= width;
-  }
+  if (!effective.Lambda) return line_fits(eigenvalues_notations(masses_of(effective)).front(), width, text_scale, theme, fonts);
   const TextStyle smallest{Face::math, scaled(kSmallestText, text_scale), theme.ink, Align::left};
   return lay_out_matrix(fonts, matrix_notations(*effective.Lambda), smallest).width <= width;
+}
+
+std::vector<std::optional<double>> masses_of(const EffectiveMass& effective) {
+  std::vector<std::optional<double>> masses;
+  for (const MassAxis& axis : mass_axes(effective)) masses.push_back(axis.mass);
+  return masses;
 }
 
 std::vector<std::string> eigenvalues_notations(const std::vector<std::optional<double>>& masses) {
@@ -250,7 +234,7 @@ namespace {
 
 double mass_width(const EffectiveMass& effective, const TextStyle& style, const Fonts& fonts) {
   if (effective.Lambda) return lay_out_matrix(fonts, matrix_notations(*effective.Lambda), style).width;
-  return lay_out_text(fonts, singular_text(effective), {Face::label, style.size, style.color, Align::left}).advance;
+  return lay_out_math(fonts, eigenvalues_notations(masses_of(effective)).front(), style).advance;
 }
 
 }  // namespace
@@ -294,8 +278,7 @@ void draw_caption(Picture& picture, const std::string& pose, const EffectiveMass
   draw_caption_line(picture, pose, size, box, text_scale, theme, fonts);
   const double rest = box.y1 - kToMatrix * em;
   if (!effective.Lambda) {
-    style.face = Face::label;
-    draw_text(picture, lay_out_text(fonts, singular_text(effective), style), {middle, rest - 0.9 * em});
+    draw_text(picture, lay_out_math(fonts, eigenvalues_notations(masses_of(effective)).front(), style), {middle, rest - 0.9 * em});
     return;
   }
   style.align = Align::left;

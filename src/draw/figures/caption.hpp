@@ -22,15 +22,14 @@ std::string number_notation(double value, double largest);
 // Entries of Lambda, row by row.
 std::vector<std::vector<std::string>> matrix_notations(const Eigen::MatrixXd& Lambda);
 
-// "\u039B: infinite along (1, 0)", further directions behind it.
-std::string singular_text(const EffectiveMass& effective);
-
 // How tall a caption with a matrix of `rows` rows is, units of H.
 double caption_height(int rows, double text_scale);
 
-// Whether Lambda, or along what it is infinite, can be read where the caption is so wide.
+// Whether Lambda, or where it is infinite its eigenvalues, can be read where the caption is so wide.
 bool matrix_fits(const EffectiveMass& effective, double width, double text_scale, const Theme& theme, const Fonts& fonts);
 
+// Of each axis of the ellipse, nothing where it is infinite.
+std::vector<std::optional<double>> masses_of(const EffectiveMass& effective);
 // The masses along the axes of the ellipse, which are the eigenvalues of Lambda: "eig \u039B = (2, 1) kg".
 // The second form is the list alone.
 std::vector<std::string> eigenvalues_notations(const std::vector<std::optional<double>>& masses);

@@ -59,6 +59,7 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
   style.unnamed = &unnamed;
   if (has_lengths(panels)) style.labels = &labels;
   if (!drawing.shapes) style.hole = link_end(drawing.look);
+  style.outward = last_link(panels.skeleton, ws, camera);
   if (drawing.shapes) style.hides = robot_hides(*drawing.shapes, ws, camera, tip_position(panels.chain, ws));
   const Camera seen = camera.seen_at(tip_position(panels.chain, ws));
   draw_base(picture, drawing, clip);
@@ -102,6 +103,12 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
 const std::vector<std::string>& figure_layout_names() {
   static const std::vector<std::string> names{"grid", "row", "superposed"};
   return names;
+}
+
+Point last_link(const Skeleton& skeleton, const Workspace& ws, const Camera& camera) {
+  if (skeleton.links.empty()) return {};
+  const LinkSegment& link = skeleton.links.back();
+  return camera.project(pose_of(ws, link.body) * link.to) - camera.project(pose_of(ws, link.body) * link.from);
 }
 
 std::vector<Pose> poses_of(const TipMass& mass, const std::vector<std::vector<double>>& configurations,

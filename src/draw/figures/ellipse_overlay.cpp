@@ -163,6 +163,7 @@ struct Overlay {
     if (names_masses) style.unnamed = &unnamed;
     if (part == EllipsePart::above && !names_masses) style.labels = &numbers;
     if (!options.shapes && !is_field()) style.hole = link_end(look_of(skeleton, camera, *options.theme));
+    style.outward = last_link(skeleton, ws, camera);
     if (options.shapes) style.hides = robot_hides(*options.shapes, ws, camera, place);
     if (is_open(pose)) style.disc = reach_of_open(scene);
     int clip = kSceneClip;
@@ -172,6 +173,7 @@ struct Overlay {
       style.fade = half / 2;  // of belts
       style.disc = kInCell * side;
       style.signs = false;
+      style.dashed_cut = true;
       style.lines = std::clamp(side / kCellOfFullLines, kThinnestLines, 1.0);
       clip = int(picture.clips.size());
       picture.clips.push_back(style.scene);

@@ -32,6 +32,7 @@ constexpr double kAirAround = 1.25;  // of what is drawn, to the frame of its ax
 constexpr double kLetterRoom = 2.5;    // of the em
 constexpr double kLeastSquare = 4;       // of the em of numbers: below, axes cannot be read
 constexpr double kUsualBlock = 26;       // of the em, of a page that is as high as its blocks need
+constexpr double kMostHead = 0.45, kSmallestArrow = 0.25;  // of an arrow's length; of its size: thinner ones cannot be seen
 constexpr double kFullArrows = 0.25;     // units of H, of a square: arrows are smaller in smaller ones
 
 bool is_prismatic(const Chain& chain, int freedom) {
@@ -143,7 +144,9 @@ void draw_image(Picture& picture, const PlotFrame& frame, const Eigen::Matrix2d&
     arrow.name = lay_out_math(*style.fonts, is_torque ? name : name + " = 1", text);
     // Small frames have room for the symbol alone; that it is of unit length is said below the figure.
     if (arrow.name.advance > kWidestLabel * frame.box.width()) arrow.name = lay_out_math(*style.fonts, name, text);
-    draw_arrow(picture, center, arrow.v, {arrow.color, std::clamp(frame.box.width() / kFullArrows, 0.5, 1.0), false, 0, style.theme->lines}, clip);
+    // A short one keeps a shaft that can be seen.
+    const double of_frame = std::clamp(frame.box.width() / kFullArrows, 0.5, 1.0), of_length = std::max(kMostHead * norm(arrow.v) / size::kArrowHead, kSmallestArrow);
+    draw_arrow(picture, center, arrow.v, {arrow.color, std::min(of_frame, of_length), false, 0, style.theme->lines}, clip);
   }
   std::optional<Rect> before;
   for (int k = 0; k < 2; ++k) {

@@ -12,17 +12,14 @@ constexpr double kBetweenRows = 0.7, kBetweenBlocks = 2;  // of the em
 // What stands about a square of axes, units of H.
 struct Surroundings {
   double left = 0, right = 0;
-  double title = 0;              // of y, above
-  double numbers = 0, below = 0;  // of x; with its title
+  double title = 0;  // of y, above
+  double below = 0;  // numbers and title of x
 };
 
 Surroundings about(const Axis& x, const Axis& y, const PlotStyle& style, double ems) {
   const Rect area{0, 0, ems * style.text(size::kTick), ems * style.text(size::kTick)};
   const Rect named = lay_out_plot(area, x, y, style).box;
-  Axis bare_x = x, bare_y = y;
-  bare_x.title = bare_y.title = "";
-  const Rect bare = lay_out_plot(area, bare_x, bare_y, style).box;
-  return {named.x0 - area.x0, area.x1 - named.x1, area.y1 - named.y1, bare.y0 - area.y0, named.y0 - area.y0};
+  return {named.x0 - area.x0, area.x1 - named.x1, area.y1 - named.y1, named.y0 - area.y0};
 }
 
 // Of frames of any usual size: larger ones have more numbers, with more digits.
@@ -32,7 +29,7 @@ Surroundings about(const Axis& x, const Axis& y, const PlotStyle& style) {
   for (const double ems : {kSmall, kUsual, kLarge}) {
     const Surroundings one = about(x, y, style, ems);
     most = {std::max(most.left, one.left), std::max(most.right, one.right), std::max(most.title, one.title),
-            std::max(most.numbers, one.numbers), std::max(most.below, one.below)};
+            std::max(most.below, one.below)};
   }
   return most;
 }
@@ -48,10 +45,8 @@ struct Measures {
         gap(kLeastGap * em) {}
 
   double beside() const { return from.left + from.right + to.left + to.right; }
-  double row(double side) const { return kWordsLine * em + side + from.numbers; }
-  double rows(int count, double side) const {
-    return count * row(side) + (count - 1) * kBetweenRows * em + from.title + from.below - from.numbers;
-  }
+  double row(double side) const { return kWordsLine * em + from.title + side + from.below; }
+  double rows(int count, double side) const { return count * row(side) + (count - 1) * kBetweenRows * em; }
 };
 
 int rows_of(int count, int across) { return (count + across - 1) / across; }
@@ -82,18 +77,13 @@ std::vector<JointSpaceBlock> blocks_of(const JointSpaceLayout& layout, const Joi
   for (int i = 0; i < count; ++i) {
     const int row = i / layout.across, column = i % layout.across;
     const double left = area.x0 + column * pitch + (pitch - kBetweenBlocks * em - width) / 2;
-    const double words = top - row * (measures.row(side) + kBetweenRows * em) - (row > 0 ? measures.from.title : 0);
-    const double y1 = words - kWordsLine * em - (row == 0 ? measures.from.title : 0), y0 = y1 - side;
+    const double words = top - row * (measures.row(side) + kBetweenRows * em);
+    const double y1 = words - kWordsLine * em - measures.from.title, y0 = y1 - side;
     JointSpaceBlock block{{left, words - kWordsLine * em, left + width, words}, {left, y0, left + side, y1}, {}, {}};
     double x = block.chain.x1 + gap + measures.from.left;
     block.from = {axes.from_x, axes.from_y, {x, y0, x + side, y1}};
     x += side + measures.from.right + gap + measures.to.left;
     block.to = {axes.to_x, axes.to_y, {x, y0, x + side, y1}};
-    const bool is_last = row + 1 == rows || i + layout.across >= count;
-    for (PlotFrame* frame : {&block.from, &block.to}) {
-      if (row > 0) frame->y.title.clear();
-      if (!is_last) frame->x.title.clear();
-    }
     blocks.push_back(block);
   }
   return blocks;

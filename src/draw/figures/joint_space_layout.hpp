@@ -28,8 +28,7 @@ struct JointSpaceLayout {
 JointSpaceLayout lay_out_blocks(const JointSpaceAxes& axes, int count, int across, double width, double height,
                                 const PlotStyle& style);
 
-// Those of a layout, row by row, in the middle of the area. Squares share the titles of their axes: those at the top of
-// a column bear the title of y, those at its foot that of x.
+// Those of a layout, row by row, in the middle of the area; each square bears the titles of its axes.
 std::vector<JointSpaceBlock> blocks_of(const JointSpaceLayout& layout, const JointSpaceAxes& axes, int count, const Rect& area,
                                        const PlotStyle& style);
 

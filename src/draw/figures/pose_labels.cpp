@@ -23,6 +23,7 @@ constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 1.2, kOnLin
 constexpr double kAtEnd = 0.1;  // of a name at an end of its curve
 constexpr double kLeastAtEnd = 0.03;  // units of H: a shorter leader to an end of a curve would be a blot on it
 constexpr double kOutward = 0.3;  // cosine: there it stands no farther aside
+constexpr double kOwnAtEnd = 0.8;  // of the same, of a name at the end of a curve
 constexpr double kOwnByFar = 0.6;  // of the way to the next tip: nearer names need no leader
 
 struct Candidate {
@@ -170,8 +171,9 @@ std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::spa
         next = std::min(next, norm(other.at - nearest_in(at(i).box, other.at)));
     bool stands = true;
     for (std::size_t j = 0; j < i; ++j) stands = stands && !(placed[j].word.opacity > 0 && overlap(at(i).box, at(j).box));
-    const double way = norm(at(i).to - at(i).foot), shortest = norm(at(i).to - places[i].tip) > 0 ? kLeastAtEnd : 0;
-    placed.push_back({{at(i).box, stands ? 1.0 : 0.0}, way > std::max(kOwnByFar * next, shortest), at(i).to});
+    const double way = norm(at(i).to - at(i).foot);
+    const bool would_be_blot = norm(at(i).to - places[i].tip) > 0 && way < kLeastAtEnd && way < kOwnAtEnd * next;
+    placed.push_back({{at(i).box, stands ? 1.0 : 0.0}, way > kOwnByFar * next && !would_be_blot, at(i).to});
   }
   return placed;
 }

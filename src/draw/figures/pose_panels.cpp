@@ -99,12 +99,6 @@ bool has_matrices(const Panels& panels, const std::vector<Pose>& poses) {
          });
 }
 
-std::vector<std::optional<double>> masses_of(const Pose& pose) {
-  std::vector<std::optional<double>> masses;
-  for (const MassAxis& axis : mass_axes(pose.effective)) masses.push_back(axis.mass);
-  return masses;
-}
-
 bool all_fit(const Panels& panels, const auto& notations) {
   return std::all_of(notations.begin(), notations.end(), [&](const std::string& notation) {
     return line_fits(notation, caption_width(panels), panels.options.text_scale, *panels.options.theme, panels.fonts);
@@ -132,7 +126,7 @@ void write_lines(Panels& panels, const std::vector<Pose>& poses) {
   const double cell = panels.places[0].height(), text_scale = panels.options.text_scale;
   std::vector<std::string> whole, alone, masses;
   for (const Pose& pose : poses) {
-    panels.lines.push_back(line_notations(panels.chain, pose.q, masses_of(pose)));
+    panels.lines.push_back(line_notations(panels.chain, pose.q, masses_of(pose.effective)));
     whole.push_back(panels.lines.back().front());
     alone.push_back(panels.lines.back()[1]);
   }
@@ -142,7 +136,7 @@ void write_lines(Panels& panels, const std::vector<Pose>& poses) {
   for (std::vector<std::string>& forms : panels.lines) forms.erase(forms.begin());
   for (std::size_t form = 0; form < 2 && masses.empty(); ++form) {
     panels.has_bare_masses = form == 1;
-    for (const Pose& pose : poses) masses.push_back(eigenvalues_notations(masses_of(pose))[form]);
+    for (const Pose& pose : poses) masses.push_back(eigenvalues_notations(masses_of(pose.effective))[form]);
     if (!all_fit(panels, masses)) masses.clear();
   }
   const std::vector<std::vector<std::string>> in_lines = all_fit(panels, alone) ? std::vector<std::vector<std::string>>{} : poses_in_lines(panels, poses);

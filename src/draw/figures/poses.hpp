@@ -64,7 +64,7 @@ bool leaves_page(const Chain& chain, const std::vector<double>& q, const PoseFig
                  const Fonts& fonts);
 
 // One panel a pose, all at the same scale: the chain, its effective-mass ellipse, and below them the pose and the
-// numbers of Lambda, of five poses and more on one line; at singular poses an open band and the direction of infinite mass. Superposed: every chain as an
+// numbers of Lambda, of five poses and more on one line; at singular poses an open band and the masses along its axes. Superposed: every chain as an
 // onion skin of 25 %, every ellipse at full strength. A field: the chain where its ellipse is roundest alone.
 // `numbers_left_out`: where it is not null, how many semi-axes that were to have a number have none, for want of room.
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& poses,

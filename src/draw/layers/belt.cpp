@@ -176,7 +176,7 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
   }
   const bool solid = axes.size() > 2;
   if (solid && mobility.back() > 0) draw_surface(picture, A, center, camera, style, clip);
-  const Fade whole = fade_of(style.scene, center, spread, style.fade);
+  const Fade whole = fade_of(style, center, spread);
   const auto draw_planes = [&](double width, Color fill, Color stroke) {
     for (std::size_t i = 0; i + 1 < axes.size(); ++i)
       for (std::size_t j = i + 1; j < axes.size(); ++j)

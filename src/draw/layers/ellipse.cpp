@@ -61,7 +61,7 @@ void draw_finite_axes(Picture& picture, const std::vector<PageAxis>& axes, Point
 void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point center, const EllipseStyle& style,
                  int clip) {
   const Spread spread = spread_of(axes);
-  const Fade fade = fade_of(style.scene, center, spread, style.fade);
+  const Fade fade = fade_of(style, center, spread);
   const std::array<Point, 2> outline = spread.axes();
   const Color fill = fill_of(style);
   if (style.part == EllipsePart::below) draw_ellipse(picture, center, outline, {fill, {}, 0}, fade, clip);
@@ -108,6 +108,22 @@ void draw_fading_fill(Picture& picture, Point center, Point half_width, const Fa
   if (band.count >= 3) picture.add(band, clip);
 }
 
+// How far from its long axis an ellipse of semi-axes a > r > b meets the circle of radius r.
+double bend_at(double a, double b, double r) {
+  return b < r ? b * std::sqrt((a * a - r * r) / (a * a - b * b)) : r;
+}
+
+// Dashed arcs at both ends of what a circle shows of a curve, which say that it goes on.
+void draw_cut_edges(Picture& picture, Point center, Point along, double half_angle, const EllipseStyle& style, int clip) {
+  constexpr double kDashOfRadius = 0.16, kGapOfDash = 0.8;
+  const double middle = std::atan2(along.y, along.x);
+  const int dashes = std::max(1, int(std::round((2 * half_angle / kDashOfRadius + kGapOfDash) / (1 + kGapOfDash))));
+  const double dash = 2 * half_angle / (dashes + (dashes - 1) * kGapOfDash);
+  for (const double side : {0.0, std::numbers::pi})
+    for (int i = 0; i < dashes; ++i)
+      picture.add(Arc{center, style.disc, middle + side - half_angle + i * (1 + kGapOfDash) * dash, dash, style.lines * size::kEllipseAxis, style.theme->ellipse}, clip);
+}
+
 // A curve of a field, which ends at the circle of its cell: the inside is cut there, lines fade over the last quarter of
 // the way. `v` may have no length.
 void draw_in_disc(Picture& picture, Point center, Point u, Point v, const EllipseStyle& style, int clip) {
@@ -124,7 +140,7 @@ void draw_in_disc(Picture& picture, Point center, Point u, Point v, const Ellips
     if (points.size() > 1) picture.add(std::move(trail), clip);
   };
   std::vector<Point> upper, lower, outline;
-  const double bend = a > r && b < r ? b * std::sqrt((a * a - r * r) / (a * a - b * b)) : 0;  // where it meets the circle
+  const double bend = a > r && b < r ? bend_at(a, b, r) : 0;
   const double meets = std::sqrt(std::max(0.0, std::min(end * end, r * r - bend * bend)));
   for (int i = 0; i <= kPieces; ++i) {
     const double c = std::cos(i * std::numbers::pi / kPieces), x = end * c, seen = meets * c;
@@ -139,6 +155,7 @@ void draw_in_disc(Picture& picture, Point center, Point u, Point v, const Ellips
   stroke(outline, width);
   for (Point& p : outline) p = -1 * p;
   stroke(outline, width);
+  if (style.dashed_cut && a > r && b > kNoLength) draw_cut_edges(picture, center, along, std::asin(std::min(1.0, bend_at(a, b, r) / r)), style, clip);
   std::vector<Point> axis;
   for (int i = -4; i <= 4; ++i) axis.push_back(i * end / 4 * along);
   stroke(axis, b > kNoLength ? style.lines * size::kEllipseAxis : width);
@@ -167,7 +184,7 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
   Spread band;
   band.add(2 * kBeyond * d);
   band.add(half_width * n);
-  const Fade fade = fade_of(style.scene, center, band, style.fade);
+  const Fade fade = fade_of(style, center, band);
   if (style.draws_below() && style.is_filled) draw_fading_fill(picture, center, half_width * n, fade, fill_of(style), clip);
   for_each_stroke(style, [&](const Stroke& stroke) {
     const double width = stroke.width(size::kEllipseAxis, style);

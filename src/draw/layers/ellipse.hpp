@@ -101,8 +101,10 @@ struct EllipseStyle {
   EllipsePart part = EllipsePart::whole;
   Hides hides = nullptr;  // of a robot in space
   double hole = 0;        // units of H: axes begin at the end of the link about the middle, whose outline they would cut
+  Point outward{};        // of figures: away from the link that the middle is an end of; numbers of axes along it stand at their outer ends
   bool is_filled = true;  // not where several lie over one another
   double disc = 0;        // units of H; above 0: what is seen of the curve lies in this circle about its middle
+  bool dashed_cut = false;  // where it is cut there, it says so
 
   bool draws_below() const { return part != EllipsePart::above; }
   bool draws_above() const { return part != EllipsePart::below; }

@@ -40,7 +40,7 @@ class Ellipsoid {
     // What is heavy is slow.
     if (style.reading == EllipseReading::energy) std::reverse(axes_.begin(), axes_.end());
     for (const SolidAxis& axis : axes_) spread_.add(on_page(axis.v) - center_);
-    fade_ = fade_of(style.scene, center, spread_, style.fade);
+    fade_ = fade_of(style, center, spread_);
   }
 
   void draw(Picture& picture, int clip) const {

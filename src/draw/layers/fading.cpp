@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "core/format.hpp"
 #include "draw/page/mark_labels.hpp"
@@ -12,7 +13,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kDash = 0.012, kGap = 0.008;
+constexpr double kDash = 0.012, kGap = 0.008, kLeastDash = kDash / 2;
 constexpr double kNumberGaps[] = {0.010, 0.018};        // units of H, beyond the end of a semi-axis
 constexpr double kBesideGaps[] = {0.010, 0.018, 0.03};    // ... beside it, of one that is short
 constexpr double kTieOff = 0.004, kShortTie = 0.008;      // lines of figures end so far from that end, and are no shorter
@@ -21,6 +22,7 @@ constexpr double kFarNumberGaps[] = {0.05, 0.09, 0.13, 0.18, 0.25, 0.33, 0.42}; 
 constexpr std::size_t kFarOfFilms = 3;  // of these: in films words stay near
 constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
 constexpr double kOwnByFar = 0.7;                       // of the way to the end of another axis: a number is that of the nearer one
+constexpr double kAlongLink = 0.5;                      // cosine: an axis along the link
 constexpr double kAside[] = {0, 0.8, -0.8, 1.5, -1.5};  // rad: where its number stands about that end
 
 }  // namespace
@@ -105,9 +107,14 @@ double farthest(double along, double mixed, double across, double low, double hi
 
 }  // namespace
 
-Fade fade_of(const Rect& scene, Point center, const Spread& spread, double most) {
+Fade fade_of(const EllipseStyle& style, Point center, const Spread& spread) {
+  constexpr double kOfStill = 6;  // times as quickly as where a curve grows from frame to frame
+  return fade_of(style.scene, center, spread, style.fade, style.unnamed != nullptr ? kOfStill : 1);
+}
+
+Fade fade_of(const Rect& scene, Point center, const Spread& spread, double most, double per_excess) {
   const Rect room{scene.x0 - center.x, scene.y0 - center.y, scene.x1 - center.x, scene.y1 - center.y};
-  const auto stretch = [&](double reach, double way) { return std::clamp(reach - way, 0.0, most); };
+  const auto stretch = [&](double reach, double way) { return std::clamp(per_excess * (reach - way), 0.0, most); };
   const auto& [xx, xy, yy] = spread;
   return {scene, stretch(farthest(xx, xy, yy, -room.y1, -room.y0), -room.x0),
           stretch(farthest(xx, xy, yy, room.y0, room.y1), room.x1),
@@ -207,7 +214,9 @@ void draw_axis(Picture& picture, Point center, Point v, bool dashed, double widt
     if (hole > 0 && i >= 0) from = std::max(from, hole);
     if (hole > 0 && i <= 0) to = std::min(to, -hole);
     const double opacity = fade.opacity_at(center + middle * u);
-    if (from < to && opacity > 0)
+    // What the end of a link leaves of a dash, next to it, would be a speck; but of a short axis it is all there is.
+    const bool is_speck = hole > 0 && to - from < kLeastDash && (from == hole || to == -hole) && reach - hole > kLeastDash;
+    if (from < to && opacity > 0 && !is_speck)
       draw_line(picture, {center + from * u, center + to * u}, width, color.faded(opacity), clip);
   }
 }
@@ -289,6 +298,58 @@ Fade fade_before(const TextLine& text, double strength, Point d, Fade fade) {
   return fade;
 }
 
+// Where the number of an axis may stand about those of its ends, the best first, and its line.
+void add_places(MarkWord& word, Point center, Point v, std::span<const double> ends, const EllipseStyle& style, std::span<const Point> others) {
+  const bool is_figure = style.unnamed != nullptr, has_lines = is_figure && !style.hides;
+  const auto to_ends = [&](const Rect& place, Point axis) {
+    const Point ahead = center + axis, behind = center - axis;
+    return std::min(norm(nearest_in(place, ahead) - ahead), norm(nearest_in(place, behind) - behind));
+  };
+  const auto can_stand = [&](const Rect& place) {
+    return is_within(place, style.scene) &&
+           std::ranges::all_of(others, [&](Point other) { return to_ends(place, v) < kOwnByFar * to_ends(place, other); });
+  };
+  // That of an axis shorter than its words are high stands beside it: beyond its end it would stand nearer to the tip of the other one.
+  if (norm(v) < word.line.box.height())
+    for (const double gap : kBesideGaps)
+      for (const double side : ends) {
+        const Point end = center + side * v;
+        const Rect place = place_beyond(word.line, end, gap, {std::copysign(1.0, side * v.x), 0});
+        if (std::abs(v.x) > std::abs(v.y) / 2 && can_stand(place)) word.places.push_back(place);
+      }
+  for (const double gap : kNumberGaps)
+    for (const double side : ends) {
+      const Point d = side * unit(v), end = center + side * v;
+      for (const double aside : kAside) {
+        const Rect place = place_beyond(word.line, end, gap, std::cos(aside) * d + std::sin(aside) * normal_to(d));
+        if (can_stand(place)) word.places.push_back(place);
+      }
+    }
+  // In space the robot may lie around the ends of an axis.
+  if (style.hides) {
+    const Point end = center + v;
+    for (const double gap : std::span(kFarNumberGaps).first(is_figure ? std::size(kFarNumberGaps) : kFarOfFilms))
+      for (const Point tip : {end, center - v})
+        for (const Rect& place : places_about(word.line, tip, gap, unit(tip - center)))
+          if (is_within(place, style.scene) && (is_figure || tip.x == end.x)) word.places.push_back(place);
+    word.tie = is_figure ? Tie{end, kTieOff, style.theme->ellipse, center - v, kShortTie} : Tie{end, kNumberGaps[0], style.theme->ellipse, center - v};
+  }
+  if (!has_lines) return;
+  for (const double share : {0.7, 0.4})
+    for (const double end : ends)
+      for (const double side : {1.0, -1.0})
+        for (const double gap : kNumberGaps) {
+          const Rect place = place_beyond(word.line, center + end * share * v, gap + style.hole, side * normal_to(unit(v)));
+          if (can_stand(place)) word.places.push_back(place);
+        }
+  for (const double gap : kTiedNumberGaps)
+    for (const double side : ends)
+      for (const Rect& place : places_about(word.line, center + side * v, gap, side * unit(v)))
+        if (is_within(place, style.scene)) word.places.push_back(place);
+  // However near: beside the end of an axis there may be a link, too.
+  word.tie = Tie{center + ends.front() * v, kTieOff, style.theme->ellipse, center + ends.back() * v, kShortTie};
+}
+
 }  // namespace
 
 void draw_infinities(Picture& picture, Point center, Point d, double half_width, const EllipseStyle& style, int clip) {
@@ -313,53 +374,19 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
   if (strength > 0 && has_one_place(style))
     for (const double side : {1.0, -1.0})
       for (const Rect& place : boxes_beside_edge(word.line, center, side * unit(v), half_width, style.scene)) word.places.push_back(place);
-  const auto to_ends = [&](const Rect& place, Point axis) { 
-    const Point ahead = center + axis, behind = center - axis;
-    return std::min(norm(nearest_in(place, ahead) - ahead), norm(nearest_in(place, behind) - behind));
-  };
-  const auto can_stand = [&](const Rect& place) {
-    return is_within(place, style.scene) &&
-           std::ranges::all_of(others, [&](Point other) { return to_ends(place, v) < kOwnByFar * to_ends(place, other); });
-  };
-  // That of an axis shorter than its words are high stands beside it: beyond its end it would stand nearer to the tip of the other one.
-  if (norm(v) < word.line.box.height())
-    for (const double gap : kBesideGaps)
-      for (const double side : {1.0, -1.0}) {
-        const Point end = center + side * v;
-        const Rect place = place_beyond(word.line, end, gap, {std::copysign(1.0, side * v.x), 0});
-        if (std::abs(v.x) > std::abs(v.y) / 2 && can_stand(place)) word.places.push_back(place);
-      }
-  for (const double gap : kNumberGaps)
-    for (const double side : {1.0, -1.0}) {
-      const Point d = side * unit(v), end = center + side * v;
-      for (const double aside : kAside) {
-        const Rect place = place_beyond(word.line, end, gap, std::cos(aside) * d + std::sin(aside) * normal_to(d));
-        if (can_stand(place)) word.places.push_back(place);
-      }
-    }
-  // In space the robot may lie around the ends of an axis.
-  if (style.hides) {
-    const Point end = center + v;
-    for (const double gap : std::span(kFarNumberGaps).first(is_figure ? std::size(kFarNumberGaps) : kFarOfFilms))
-      for (const Point tip : {end, center - v})
-        for (const Rect& place : places_about(word.line, tip, gap, unit(tip - center)))
-          if (is_within(place, style.scene) && (is_figure || tip.x == end.x)) word.places.push_back(place);
-    word.tie = is_figure ? Tie{end, kTieOff, style.theme->ellipse, center - v, kShortTie} : Tie{end, kNumberGaps[0], style.theme->ellipse, center - v};
+  // Of a figure the outer end of an axis along the link: at the other one its number would be taken for the link's.
+  std::vector<double> ends{1, -1};
+  bool leaves_scene = false;
+  if (const double along = dot(unit(v), style.outward); has_lines && std::abs(along) > kAlongLink * norm(style.outward) && norm(style.outward) > 0) {
+    if (along < 0) v = -1 * v;
+    ends = {1};
+    leaves_scene = !contains(style.scene, center + v);
+    if (leaves_scene && !(strength > 0))
+      for (const Rect& place : boxes_beside_edge(word.line, center, unit(v), half_width, style.scene)) word.places.push_back(place);
   }
-  if (has_lines) {
-    for (const double share : {0.7, -0.7, 0.4, -0.4})
-      for (const double side : {1.0, -1.0})
-        for (const double gap : kNumberGaps) {
-          const Rect place = place_beyond(word.line, center + share * v, gap + style.hole, side * normal_to(unit(v)));
-          if (can_stand(place)) word.places.push_back(place);
-        }
-    for (const double gap : kTiedNumberGaps)
-      for (const double side : {1.0, -1.0})
-        for (const Rect& place : places_about(word.line, center + side * v, gap, side * unit(v)))
-          if (is_within(place, style.scene)) word.places.push_back(place);
-    // However near: beside the end of an axis there may be a link, too.
-    word.tie = Tie{center + v, kTieOff, style.theme->ellipse, center - v, kShortTie};
-  }
+  add_places(word, center, v, ends, style, others);
+  if (leaves_scene) word.tie.reset();  // beside it where it leaves the scene
+  if (word.places.empty() && ends.size() == 1) add_places(word, center, v, std::vector<double>{-1}, style, others);
   if (!word.places.empty())
     style.labels->add(std::move(word));
   else if (style.unnamed != nullptr && !(strength_of_length(center, v, style) > 0))

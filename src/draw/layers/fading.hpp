@@ -53,7 +53,9 @@ Polygon cut(const Polygon& polygon, Point through, Point inward);
 
 // Towards each edge through which the ellipse leaves the scene, over what it leads out there and `most` at most: of a curve
 // that grows beyond its scene ever more fades, and nothing is cut.
-Fade fade_of(const Rect& scene, Point center, const Spread& spread, double most);
+Fade fade_of(const Rect& scene, Point center, const Spread& spread, double most, double per_excess = 1);
+// The same as its style has it: of still figures soon over the whole stretch, since what is cut by little would look cut off.
+Fade fade_of(const EllipseStyle& style, Point center, const Spread& spread);
 
 // A line through the points, fading; of one that fades only the part in the scene.
 void draw_outline(Picture& picture, const std::vector<Point>& points, double width, Color color, const Fade& fade,

