@@ -145,6 +145,7 @@ struct Page {
   // The title of the only scene stands above its instants.
   bool is_of_one() const { return options.scenes.size() == 1 && count > 1; }
   void lay_out();
+  void take(const Page& other) { look = other.look, size = other.size, grid = other.grid; }
   void set_title(const std::string& title) {
     look.title = title;
     lay_out();
@@ -261,12 +262,18 @@ std::vector<ContactCell> cells_of(const SheetOptions& options, Page& page, Json&
   return all;
 }
 
-// Below each picture its title stands whole, on as many lines as the longest one takes.
+// Below each picture its title stands whole, on as many lines as the longest one takes, where that leaves pictures.
 void give_room_to_titles(Page& page, const std::vector<ContactCell>& cells) {
   constexpr int kMostLines = 5;
   while (page.grid.title_lines < kMostLines && title_lines_of(page.grid, cells, page.look) > page.grid.title_lines) {
+    const Page before = page;
     page.look.title_lines = page.grid.title_lines + 1;
-    page.lay_out();
+    try {
+      page.lay_out();
+    } catch (const Error&) {
+      page.take(before);
+      return;
+    }
   }
 }
 
@@ -304,6 +311,7 @@ void run_sheet(const SheetOptions& options) {
   const Fonts fonts;
   Page page{.options = options, .look = {}, .theme = theme, .count = count, .asked = asked};
   page.look.title = options.title;
+  page.look.is_paper = options.paper.is_given();
   page.look.theme = &theme_named(to_string(theme));
   page.look.fonts = &fonts;
   page.lay_out();

@@ -59,13 +59,13 @@ PageTitle page_title(const ContactSheetLook& look) {
     return lay_out_words(*look.fonts, words, {Face::label_bold, title.size, look.theme->ink, Align::left});
   };
   if (look.title.empty()) return title;
-  for (title.size = look.words_of(size::kTitle) * (look.is_paper() ? kTitleOfPaper : std::min(1.0, look.aspect / kTitleAspect));; title.size *= kSmallerTitle) {
+  for (title.size = look.words_of(size::kTitle) * (look.is_paper ? kTitleOfPaper : std::min(1.0, look.aspect / kTitleAspect));; title.size *= kSmallerTitle) {
     title.lines.clear();
     const auto fits_width = [&](const std::string& words) { return line_of(words).advance <= width; };
     for (const std::string& words : broken_into_lines(look.title, std::numeric_limits<int>::max(), fits_width)) title.lines.push_back(line_of(words));
     const bool is_narrow = std::ranges::all_of(title.lines, [width](const TextLine& line) { return line.advance <= width; });
     const bool fits = is_narrow && int(title.lines.size()) <= kMostTitleLines;
-    if (look.is_paper() && title.size < look.least_text)
+    if (look.is_paper && title.size < look.least_text)
       throw Error(ExitCode::usage, "the title has no room above the page where it can be read: take a shorter --title, or a wider page");
     if (fits || title.size < kNoWords) return title;  // on a page of next to no width nothing fits
   }

@@ -25,9 +25,9 @@ struct ContactSheetLook {
   const Theme* theme = &light_theme();
   const Fonts* fonts = nullptr;
   int title_lines = 0;  // of the longest caption, if it needs more than are usual
+  bool is_paper = false;
 
   double words_of(double size) const { return text_scale < 1 ? std::max(size * text_scale, least_text) : scaled(size, text_scale); }
-  bool is_paper() const { return least_text < size::kTick; }
 };
 
 // Where the cells lie: pictures row by row from the top, below each the room for its title.

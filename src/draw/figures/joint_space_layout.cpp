@@ -71,7 +71,6 @@ std::vector<JointSpaceBlock> blocks_of(const JointSpaceLayout& layout, const Joi
   const double free = pitch - kBetweenBlocks * em - 3 * side - measures.beside() - 2 * measures.gap;
   const double gap = std::min(measures.gap + free / 2, kMostGap * em);
   const double width = 3 * side + measures.beside() + 2 * gap;
-  const int rows = rows_of(count, layout.across);
   const double top = area.y1 - std::max(0.0, area.height() - layout.height) / 2;
   std::vector<JointSpaceBlock> blocks;
   for (int i = 0; i < count; ++i) {

@@ -347,7 +347,7 @@ void add_places(MarkWord& word, Point center, Point v, std::span<const double> e
       for (const Rect& place : places_about(word.line, center + side * v, gap, side * unit(v)))
         if (is_within(place, style.scene)) word.places.push_back(place);
   // However near: beside the end of an axis there may be a link, too.
-  word.tie = Tie{center + ends.front() * v, kTieOff, style.theme->ellipse, center + ends.back() * v, kShortTie};
+  word.tie = Tie{center + v, kTieOff, style.theme->ellipse, center - v, kShortTie};
 }
 
 }  // namespace
@@ -385,8 +385,9 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
       for (const Rect& place : boxes_beside_edge(word.line, center, unit(v), half_width, style.scene)) word.places.push_back(place);
   }
   add_places(word, center, v, ends, style, others);
+  // Rather at the inner end than nowhere.
+  if (ends.size() == 1) add_places(word, center, v, std::vector<double>{-1}, style, others);
   if (leaves_scene) word.tie.reset();  // beside it where it leaves the scene
-  if (word.places.empty() && ends.size() == 1) add_places(word, center, v, std::vector<double>{-1}, style, others);
   if (!word.places.empty())
     style.labels->add(std::move(word));
   else if (style.unnamed != nullptr && !(strength_of_length(center, v, style) > 0))
