@@ -143,9 +143,29 @@ ClipMemory memory_of_chart(const FigureOptions& options) {
   return memory;
 }
 
+namespace {
+
+// The first bold line on it, with the formulas in it; "" where it has none.
+std::string title_on(const Picture& picture) {
+  std::string title;
+  std::optional<double> line;
+  for (const Item& item : picture.items) {
+    const auto* run = std::get_if<GlyphRun>(&item.shape);
+    if (run == nullptr || run->stroke_width > 0) continue;
+    if (!line && run->face != Face::label_bold) continue;
+    if (line && *line != run->origin.y) break;
+    line = run->origin.y;
+    title += run->text;
+  }
+  return title;
+}
+
+}  // namespace
+
 void write_figure(const FigureOptions& options, const Picture& picture, const Fonts& fonts, ClipMemory memory, const std::string& path, bool overwrite) {
   const PixelSize size = size_of(options);
-  memory.title = std::filesystem::path(path).stem().string();
+  memory.title = title_on(picture);
+  if (memory.title.empty()) memory.title = std::filesystem::path(path).stem().string();
   write_picture(picture, size.width, size.height, fonts, path, overwrite, memory);
 }
 

@@ -74,6 +74,7 @@ Filler moving_of(const GalleryClip& clip, const std::string& id) {
                {"width", plain(std::to_string(clip.start.width))},
                {"height", plain(std::to_string(clip.start.height))},
                {"poster", markup(base64(png_bytes(clip.start.frame)))},
+               {"poster_at", plain(format_fixed(poster_time(clip.audit, clip.start.seconds), 3))},
                {"words", plain(clip.words)},
                {"film", file_in_base64(clip.path)}});
   };

@@ -80,11 +80,24 @@ std::string trouble_of(const std::string& path, const std::string& type) {
   }
 }
 
+// What a figure without a title shows, by the command that made it: "Effective mass of rr".
+std::string shown_by(const Json& figure) {
+  const std::vector<std::string> words = figure.is_object() ? figure.value("arguments", std::vector<std::string>()) : std::vector<std::string>();
+  if (words.empty() || words.front() != "ellipse") return "";
+  const bool is_joint_space = std::ranges::count(words, "--joint-space") > 0;
+  std::string source;
+  for (const std::size_t i : figure.value("files", std::vector<std::size_t>()))
+    if (source.empty() && i < words.size()) source = words[i];
+  source = fs::path(source.substr(source.find('=') + 1)).stem().string();
+  return source.empty() ? "" : (is_joint_space ? "Mass matrix of " : "Effective mass of ") + source;
+}
+
 std::string title_of(const std::string& path) {
   try {
     const ClipMemory memory = recall(path);
     const std::string filled = word_of(memory.audit, "title");  // which says what the scene's leaves open
     if (const std::string& title = filled.empty() ? memory.title : filled; !title.empty()) return in_plain_words(title);
+    if (const std::string shown = shown_by(memory.figure); !shown.empty()) return shown;
   } catch (const Error&) {
     // Another program's: it has its name.
   }

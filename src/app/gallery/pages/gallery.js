@@ -25,7 +25,7 @@ function element(name, properties, ...children) {
 }
 
 // A browser's own controls lie over the film's lower edge, where its words are: these stand below it. The picture that stands
-// for a film shows until somebody plays it, with a button in its middle.
+// for a film shows until somebody plays it, with a button in its corner; so long its instant is told.
 for (const video of document.querySelectorAll('video')) {
   const title = document.getElementById(video.getAttribute('aria-labelledby')).textContent;
   const film = video.parentElement;
@@ -44,14 +44,17 @@ for (const video of document.querySelectorAll('video')) {
 
   const toggle = () => (video.paused ? video.play() : video.pause());
   const go = (seconds) => { video.currentTime = Math.min(Math.max(seconds, 0), video.duration || 0); };
+  let isPoster = true;
+  for (const what of ['play', 'seeking']) video.addEventListener(what, () => { isPoster = false; });
   const show = () => {
     const length = video.duration || 0;
+    const at = isPoster ? Math.min(Number(video.dataset.posterAt), length) : video.currentTime;
     start.hidden = !video.paused || video.currentTime > 0;
     play.textContent = video.paused ? '\u25B6' : '\u2016';
     play.ariaLabel = (video.paused ? 'Play ' : 'Pause ') + title;
-    if (document.activeElement !== place || !video.paused) place.value = length > 0 ? 1000 * video.currentTime / length : 0;
-    place.ariaValueText = video.currentTime.toFixed(1) + ' of ' + length.toFixed(1) + ' seconds';
-    time.textContent = video.currentTime.toFixed(1) + ' / ' + length.toFixed(1) + ' s';
+    if (document.activeElement !== place || !video.paused) place.value = length > 0 ? 1000 * at / length : 0;
+    place.ariaValueText = at.toFixed(1) + ' of ' + length.toFixed(1) + ' seconds';
+    time.textContent = at.toFixed(1) + ' / ' + length.toFixed(1) + ' s';
   };
   for (const what of ['play', 'pause', 'timeupdate', 'seeked', 'loadedmetadata', 'emptied']) video.addEventListener(what, show);
   for (const button of [start, play, video]) button.addEventListener('click', toggle);
@@ -69,6 +72,21 @@ for (const video of document.querySelectorAll('video')) {
     keys[event.key]();
   });
   show();
+}
+
+// A picture that is small on the page is large above it at a click: as wide as its words need, to be moved about.
+const large = element('dialog', {className: 'large', ariaLabel: 'Enlarged picture'});
+const shut = element('button', {type: 'button', textContent: 'Close'});
+large.addEventListener('click', () => large.close());
+document.body.append(large);
+for (const picture of document.querySelectorAll('figure img')) {
+  const enlarge = element('button', {type: 'button', className: 'enlarge', ariaLabel: 'Enlarge ' + picture.alt});
+  picture.replaceWith(enlarge);
+  enlarge.append(picture);
+  enlarge.addEventListener('click', () => {
+    large.replaceChildren(shut, picture.cloneNode());
+    large.showModal();
+  });
 }
 
 for (const button of document.querySelectorAll('button.save')) {
