@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kAfterTitle = 0.45, kAfterSubtitle = 0.55, kBeforeFooter = 0.9;  // of the em
 constexpr double kLeastHeight = 0.25;
+constexpr double kNarrowLogo = 0.2, kRowOfTitle = 1.3;  // of the page's width; of the em
 
 }  // namespace
 
@@ -56,8 +57,11 @@ Rect draw_words(Picture& picture, const ChartText& text, const ChartLook& look) 
     draw_logo(picture, *look.logo->image, *logo, look.logo->page_height);
     if (is_at_top(look.logo->corner))
       top = std::min(top, logo->y0 - size::kMarkToText);
-    else
-      bottom = std::max(bottom, logo->y1 + size::kMarkToText);
+    else {
+      // Beside the title of the axis, which stands in the middle, where the logo is narrow: not below it.
+      const double title = logo->width() < kNarrowLogo * inside.width() ? kRowOfTitle * style.text(size::kAxis) : 0;
+      bottom = std::max(bottom, logo->y1 + size::kMarkToText - title);
+    }
   }
   return {inside.x0, bottom, inside.x1, top};
 }

@@ -159,6 +159,23 @@ double contrast(Color a, Color b) {
   return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
 }
 
+namespace {
+
+// Of what is seen of a logo the contrast that all but a fiftieth stays below: a thin letter on a card of its own takes no less.
+double contrast_of_logo(const Image& image, Color background) {
+  constexpr double kSeen = 0.5, kFiftieth = 0.02;  // opacity; of its pixels
+  std::vector<double> found;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (const Pixel p = image.at(x, y); p.a > 255 * kSeen) found.push_back(contrast({p.r, p.g, p.b, 1}, background));
+  if (found.empty()) return 1;
+  const auto at = found.end() - 1 - std::ptrdiff_t(kFiftieth * double(found.size()));
+  std::nth_element(found.begin(), at, found.end());
+  return *at;
+}
+
+}  // namespace
+
 std::vector<std::string> low_contrasts(const Scene& scene, std::size_t links) {
   const StyleColors& colors = colors_in(scene);
   Theme theme = page_theme(scene);
@@ -184,6 +201,11 @@ std::vector<std::string> low_contrasts(const Scene& scene, std::size_t links) {
   if (is_set("curves") && shown.has("curves"))
     for (std::size_t i = 0; i < theme.curve.size(); ++i)
       check("curve " + std::to_string(i + 1), theme.curve[i], theme.background, "the background", kContrastOfWords, "words");
+  if (const auto& logo = scene.style.logo; logo && logo->image)
+    if (const double found = contrast_of_logo(*logo->image, theme.background); found < kContrastOfMarks)
+      lines.push_back("style: the logo has a contrast of " + format_shortest(int(std::floor(10 * found)) / 10.0) + " with the background; marks need " +
+                      format_shortest(kContrastOfMarks) + ": take a " + (luminance(theme.background) > 0.18 ? "darker" : "lighter") +
+                      " one, or one with a card of its own behind it");
   // Fills of links may be pale where their outlines set them off.
   if (colors.contains("links") || colors.contains("ink"))
     for (std::size_t i = 0; i < std::min(links, theme.link.size()); ++i)

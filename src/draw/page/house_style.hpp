@@ -17,7 +17,7 @@ const Theme& page_theme(const Scene& scene);
 FontFamilies families_of(const Scene& scene);
 
 // A line for each colour that the style sets, that the scene's pictures may show, and that one cannot read: words need a contrast
-// of 4.5 with the background (WCAG 2), marks and the outlines of links 3. `links`: how many bars are drawn in colours of the theme.
+// of 4.5 with the background (WCAG 2), marks, the logo and the outlines of links 3. `links`: how many bars are drawn in colours of the theme.
 std::vector<std::string> low_contrasts(const Scene& scene, std::size_t links = kMostLinkColors);
 
 // (L1 + 0.05) / (L2 + 0.05), of the relative luminances of WCAG 2.

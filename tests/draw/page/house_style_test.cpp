@@ -7,6 +7,7 @@
 #include "draw/charts/chart_page.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/shapes.hpp"
+#include "picture/plot.hpp"
 
 namespace chainreel {
 namespace {
@@ -82,6 +83,30 @@ TEST(HouseStyle, IsSilentAboutColoursThatThePictureDoesNotShow) {
   EXPECT_THAT(low_contrasts(links, 0), testing::Not(testing::Contains(HasSubstr("link 1")))) << "a model of meshes has none";
 }
 
+TEST(HouseStyle, SaysThatALogoVanishes) {
+  const auto logo = [](std::uint8_t letters, std::uint8_t card, std::uint8_t opacity) {
+    Image image(40, 20);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const bool is_letter = x % 4 == 0;
+        std::uint8_t* p = &image.bgra[4 * (std::size_t(y) * 40 + std::size_t(x))];
+        p[0] = p[1] = p[2] = is_letter ? letters : card;
+        p[3] = is_letter ? 255 : opacity;
+      }
+    return std::make_shared<const Image>(image);
+  };
+  Scene scene;
+  scene.theme = ThemeName::dark;
+  scene.style.logo = Logo{.file = "logo.svg", .image = logo(0x20, 0, 0)};
+  EXPECT_THAT(low_contrasts(scene), testing::ElementsAre(HasSubstr("the logo has a contrast of 1")));
+  scene.style.logo->image = logo(0x20, 0xFF, 255);
+  EXPECT_THAT(low_contrasts(scene), IsEmpty()) << "on a white card";
+  scene.style.logo->image = logo(0xF0, 0, 0);
+  EXPECT_THAT(low_contrasts(scene), IsEmpty());
+  scene.theme = ThemeName::light;
+  EXPECT_THAT(low_contrasts(scene), testing::ElementsAre(HasSubstr("take a darker one")));
+}
+
 TEST(HouseStyle, ContrastIsThatOfWcag) {
   EXPECT_NEAR(contrast(color_of(0xFFFFFF), color_of(0x000000)), 21, 1e-9);
   EXPECT_NEAR(contrast(color_of(0x777777), color_of(0xFFFFFF)), 4.478, 0.001);
@@ -130,7 +155,11 @@ TEST(Logo, StandsOnChartsAndTheirWordsEndBesideIt) {
     ASSERT_EQ(test::all_of<Cells>(picture).size(), 1u);
     const Rect box = test::all_of<Cells>(picture).front().rect;
     const auto is_off = [&](const Rect& r) { return r.x1 <= box.x0 || r.x0 >= box.x1 || r.y1 <= box.y0 || r.y0 >= box.y1; };
-    EXPECT_TRUE(is_off(left)) << to_string(corner);
+    // A logo at the foot stands beside the title of the axis, below its numbers.
+    const PlotStyle style{&fonts, &light_theme(), 1};
+    Rect numbers = lay_out_plot(left, {Scale::linear, 0, 1, "x"}, {Scale::linear, 0, 1, "y"}, style).box;
+    numbers.y0 -= size::kPlotTick + style.text(size::kTick);
+    EXPECT_TRUE(is_off(is_at_top(corner) ? left : numbers)) << to_string(corner);
     EXPECT_EQ(box.y0 > 0.5, is_at_top(corner));
     EXPECT_EQ(box.x0 < 0.5, is_at_left(corner));
     for (const GlyphRun& run : test::all_of<GlyphRun>(picture)) {
