@@ -180,6 +180,30 @@ std::vector<PlacedName> place_names(std::span<const NamedPlace> places, std::spa
 
 namespace {
 
+// What words take up that are drawn, without their halos.
+std::vector<Rect> boxes_of_words(const Picture& picture) {
+  constexpr double kLetter = 0.6, kHeight = 0.75;  // of their size: the last letter's width, that of capitals
+  std::vector<Rect> boxes;
+  for (const Item& item : picture.items)
+    if (const auto* run = std::get_if<GlyphRun>(&item.shape); run != nullptr && run->stroke_width == 0 && !run->glyphs.empty())
+      boxes.push_back({run->origin.x, run->origin.y, run->origin.x + run->glyphs.back().x + kLetter * run->size, run->origin.y + kHeight * run->size});
+  return boxes;
+}
+
+// Takes from each word the places whose line would run through another that stands already, but for the last of them.
+void leave_words(std::vector<MarkWord>& words, const std::vector<Rect>& standing) {
+  for (MarkWord& word : words) {
+    if (!word.tie) continue;
+    const auto runs_through = [&](const Rect& box) {
+      const auto line = line_of(*word.tie, box);
+      return line && std::ranges::any_of(standing, [&](const Rect& other) { return meets(other, line->from, line->to); });
+    };
+    std::vector<Rect> others;
+    std::ranges::remove_copy_if(word.places, std::back_inserter(others), runs_through);
+    if (!others.empty()) word.places = std::move(others);
+  }
+}
+
 constexpr int kRoundsOfTies = 6;  // each has fewer places than the one before
 
 // Takes from each word the places that lie on the line of one before it, or whose own line would cross that; whether any stood there.
@@ -229,6 +253,7 @@ int draw_clear_of(Picture& picture, std::size_t first, const MarkLabels& words, 
   Picture drawn;
   drawn.items.assign(picture.items.begin() + std::ptrdiff_t(first), picture.items.end());
   for (const Obstacle& one : obstacles_of(drawn)) obstacles.push_back(one);
+  leave_words(others, boxes_of_words(drawn));
   // Two numbers side by side are two where more than a blank is between them.
   double between = kBetweenWords;
   for (const MarkWord& word : others) between = std::max(between, kBetweenNumbers * word.line.box.height());
