@@ -334,6 +334,7 @@ struct Overlay {
       const std::optional<double> length = semi_axis(axis, options.reading);
       lengths.push_back(length ? format_digits(*length, 3) : "\u221E");
     }
+    if (options.reading == EllipseReading::energy) std::ranges::reverse(lengths);  // what is heavy is slow: the longest first
     return joined(lengths) + (options.reading == EllipseReading::energy ? " m/s" : " kg");
   }
 

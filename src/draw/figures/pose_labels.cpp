@@ -55,6 +55,19 @@ bool is_on_curve(const Rect& box, const NamedPlace& place) {
   return false;
 }
 
+// Whether a line from a name to its own place runs over the curve of another.
+bool runs_over(Point from, Point to, const NamedPlace& other) {
+  constexpr int kPieces = 8;
+  const Point u = other.curve[0], v = other.curve[1];
+  const double uu = dot(u, u), vv = dot(v, v);
+  if (!(uu > 0) || !(vv > 0)) return false;
+  for (int i = 0; i < kPieces; ++i) {
+    const Point p = from + double(i) / kPieces * (to - from) - other.tip;
+    if (std::hypot(dot(p, u) / uu, dot(p, v) / vv) < 1) return true;
+  }
+  return false;
+}
+
 // A copy of the segment is cut.
 bool meets(const Rect& box, Point a, Point b) {
   return cut_segment(box, a, b);
@@ -95,6 +108,7 @@ std::vector<Candidate> candidates_of(std::size_t i, std::span<const NamedPlace> 
           if (j == i || norm(places[j].tip - own.tip) < kTipAir) continue;
           if (norm(places[j].tip - nearest_in(box, places[j].tip)) < kTipAir) one.cost += kOnTip;
           if (distance_to(places[j].tip, one.foot, anchor.at) < kTipAir) one.cost += kCrossing;
+          if (runs_over(one.foot, anchor.at, places[j])) one.cost += kOnCurve;
         }
         for (const Bar& bar : bars)
           if (meets(widened(box, bar.half_width), bar.a, bar.b)) one.cost += kOnBar;
