@@ -26,6 +26,8 @@ constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers ta
 constexpr double kNoteGap = 0.02;
 constexpr double kStepMark = 0.009;  // units of H, across
 constexpr double kSameEnd = 1e-6;    // of a step: its end
+constexpr double kLeastOfMoved = 0.05;  // of the energy that a motion moves: a drift of a hundredth of it is a fifth of the plot, noise of methods a line
+constexpr double kFlatOfMoved = 2e-3;   // of the same: what the line of a curve covers where the axis has that range
 constexpr double kRoundTime = 0.1;    // s: a clip ends at a multiple that its last frame nearly reaches
 
 // Curves are told apart by place, or by the run they belong to.
@@ -115,11 +117,38 @@ Axis value_axis(const StripData& data) {
   const bool has_zero = !data.angles && (is_constant || !runs_differ(data, span));
   if (has_zero && low > 0 && span < kShareOfSteady * high) low = 0;
   if (has_zero && high < 0 && span < kShareOfSteady * -low) high = 0;
+  if (const double lacks = data.least_span - (high - low); lacks > 0) low -= lacks / 2, high += lacks / 2;
   const double air = kRangeAir * (high - low);
   Axis axis{data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title, {}};
   // Of a constant its number is what is to be read.
   if (is_constant && size > 0 && !data.angles) axis.at = constant > 0 ? std::vector<double>{0, constant} : std::vector<double>{constant, 0};
   return axis;
+}
+
+double span_of(const std::vector<double>& y) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const double one : y)
+    if (std::isfinite(one)) low = std::min(low, one), high = std::max(high, one);
+  return low <= high ? high - low : 0;
+}
+
+// By two digits that are no less.
+std::string at_most(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return format_significant(std::ceil(value / unit * (1 - 1e-9)) * unit, 2);
+}
+
+// The sums of energies of several runs, plot i of each, stand on an axis that is not made of their rounding; how constant they are is said.
+void keep_noise_small(StripData& data, const std::vector<StripRun>& runs, std::size_t i) {
+  double moved = 0, changed = 0;
+  for (const StripRun& run : runs) {
+    if (run.wild || i >= run.plots.size()) continue;
+    const std::vector<PlotCurve>& curves = run.plots[i].curves;
+    changed = std::max(changed, span_of(curves.back().y));
+    for (std::size_t part = 0; part + 1 < curves.size(); ++part) moved = std::max(moved, span_of(curves[part].y));
+  }
+  data.least_span = kLeastOfMoved * moved;
+  if (changed > 0 && changed < kFlatOfMoved * moved) data.constancy = "constant to " + at_most(changed) + " J";
 }
 
 std::vector<std::string> labels_of(const StripData& data) {
@@ -165,6 +194,11 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
   }
   Rect inner = area;
   if (!labels.empty()) inner.x1 -= end_labels_width(labels, style_) + kPlotLabelGap;
+  if (!data_.constancy.empty()) {
+    const std::string said = data_.title + ", " + data_.constancy;
+    const TextStyle words{Face::label, style_.text(size::kAxis), style_.theme->ink, Align::left};
+    if (lay_out_words(*style_.fonts, said, words).advance <= inner.width()) data_.title = said;
+  }
   frame_ = lay_out_plot(inner, time_axis(data_.end), value_axis(data_), style_);
   // What a run that went wild does behind the point where it leaves the plot is no motion.
   for (StripCurve& curve : data_.curves) {
@@ -235,6 +269,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     data.angles = plot.angles;
     // A comparison shows the sum of energies alone.
     const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;
+    if (sum_alone && data.least_span == 0) keep_noise_small(data, runs, i);
     PlotCurves shown = plot;
     if (sum_alone) shown.curves = {plot.curves.back()};
     for (std::size_t c = 0; c < shown.curves.size(); ++c) {

@@ -24,6 +24,8 @@ struct StripData {
   bool angles = false;
   std::vector<StripCurve> curves;
   bool of_runs = false;  // several: a curve is a run's
+  double least_span = 0;  // of the numbers' axis: what is told beyond it is noise
+  std::string constancy{};  // "constant to 0.002 J", behind the title where that has room; "": it changes
   double end = 0;        // of the clip, s
   double accurate_until = HUGE_VAL;  // s: what is plotted behind it nobody promises
   std::string note{};                // above the frame, at its right end, where it has room

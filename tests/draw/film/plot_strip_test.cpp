@@ -101,6 +101,31 @@ TEST(PlotStrip, MarksLongStepsAndWhatIsNotAccurate) {
   EXPECT_EQ(zones(drawn(run)), 0u) << "to the end of the clip";
 }
 
+// A motion of 10 J: what its sum of energies does within a method's noise is a line, a hundredth of what moves is a drift.
+TEST(PlotStrip, NoiseOfAnEnergyThatIsKeptIsNoCurve) {
+  const Fonts fonts;
+  const auto energies = [](const std::string& title, const std::vector<double>& total) {
+    StripRun run = run_of(title, false, total);
+    run.plots[0].quantity = PlotQuantity::energy;
+    run.plots[0].title = "energy [J]";
+    run.plots[0].curves = {{"kinetic", {0, 10, 0}}, {"potential", {0, -10, 0}}, {"total", total}};
+    return run;
+  };
+  const auto strip = [&](const std::vector<StripRun>& runs, const Rect& area = kStripArea) {
+    return PlotStrip(strip_data(runs, 0, 2, light_theme()), area, style_of(fonts));
+  };
+  const auto span = [](const PlotStrip& one) { return one.frame().y.high - one.frame().y.low; };
+  const PlotStrip kept = strip({energies("a", {0, 0, 0}), energies("b", {0, 0.001, 0.00213})});
+  EXPECT_GE(span(kept), 0.05 * 10);
+  EXPECT_EQ(kept.frame().y.title, "energy [J], constant to 0.0022 J");
+  EXPECT_EQ(strip({energies("a", {0, 0, 0}), energies("b", {0, 0.001, 0.00213})}, {0.1, 0.1, 0.5, 0.4}).frame().y.title, "energy [J]") << "no room";
+  const PlotStrip drifts = strip({energies("a", {-200, -200, -200}), energies("b", {-200, -199.95, -199.9})});
+  EXPECT_LT(span(drifts), 0.1 / 0.15) << "a drift of 0.1 J is more than a seventh of the plot";
+  EXPECT_EQ(drifts.frame().y.title, "energy [J]");
+  // By itself an energy has its parts beside it; other quantities have no scale.
+  EXPECT_LT(span(strip({run_of("a", false, {0, 0, 0}), run_of("b", false, {0, 0.001, 0.002})})), 0.003);
+}
+
 TEST(PlotStrip, TwoRunsBearTheColoursOfTheirTitlesMoreAreNamed) {
   const auto a = run_of("left", false, {0, 1}), b = run_of("right", false, {1, 0}),
              c = run_of("third", false, {0, 0});
