@@ -63,16 +63,22 @@ bool stop_asked(double) {
   return interrupted();
 }
 
-// The setting that `auto` takes becomes a rung of its method's ladder, unless it is one already.
-int add_choice(Simulation& simulation, const Measured& measured, Ladder& ladder, const ChartOptions& options) {
+// The setting that `auto` takes becomes a rung of its method's ladder, unless it is one already. It may be of another order than these: it
+// is no part of their curve.
+struct ChoiceRung {
+  int at = -1;
+  bool is_apart = false;
+};
+
+ChoiceRung add_choice(Simulation& simulation, const Measured& measured, Ladder& ladder, const ChartOptions& options) {
   const MethodSetting& setting = measured.choice->best.setting;
   auto& rungs = ladder.rungs;
   for (std::size_t k = 0; k < rungs.size(); ++k)
-    if (to_string(rungs[k].setting) == to_string(setting)) return int(k);
+    if (to_string(rungs[k].setting) == to_string(setting)) return {int(k), false};
   const Rung rung = measure(simulation, setting, measured.reference.run, options.runs, stop_asked);
   const double error = judged_error(rung, options.judged());
   const auto place = std::find_if(rungs.begin(), rungs.end(), [&](const Rung& one) { return judged_error(one, options.judged()) < error; });
-  return int(rungs.insert(place, rung) - rungs.begin());
+  return {int(rungs.insert(place, rung) - rungs.begin()), true};
 }
 
 Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& chosen,
@@ -112,7 +118,7 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
 
 // What the error of a rung is: "the larger of q's and 0.13 s times qd's, the largest along the run"
 std::string error_text(const Measured& measured, Judged judged) {
-  if (judged == Judged::energy) return "of the energy, the largest at the end of any step";
+  if (judged == Judged::energy) return "of the energy, the largest at the end of any step, and within steps where it is a tenth of the motion's";
   const std::string larger = "the larger of q's and " + format_significant(measured.reference.run.qd_scale, 2) + " s \u00D7 qd's";
   if (judged == Judged::final) return larger + ", at the end of the run";
   return larger + ", the largest at " + std::to_string(measured.reference.run.t.size()) + " instants along the run";
@@ -136,12 +142,14 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
   double farthest = 1;  // rad or m
   for (const double q : measured.reference.run.q) farthest = std::max(farthest, std::abs(q));
   const double lost = kLost * farthest;
-  if (!is_of_energy) data.largest_answer = kAnswer * farthest;
+  data.largest_answer = is_of_energy ? (measured.reference.run.energy > 0 ? kAnswer * measured.reference.run.energy : data.largest_answer) : kAnswer * farthest;
   for (Ladder& ladder : measured.ladders) {
     if (ladder.rungs.empty()) continue;
-    const bool chosen = ladder.method == measured.choice->best.setting.method;
-    if (chosen)
-      data.choice = {ladder.method->name, add_choice(prepared.simulation, measured, ladder, options)};
+    ChoiceRung choice;
+    if (ladder.method == measured.choice->best.setting.method) {
+      choice = add_choice(prepared.simulation, measured, ladder, options);
+      data.choice = {ladder.method->name, choice.at};
+    }
     ChartCurve curve;
     curve.method = ladder.method->name;
     curve.title = ladder.method->title;
@@ -150,7 +158,8 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
     for (const Rung& rung : ladder.rungs) {
       const double error = judged_error(rung, judged);
       const bool is_lost = !std::isfinite(rung.final.size) || (!is_of_energy && error > lost);
-      curve.points.push_back({error, rung.seconds, double(rung.evaluations), is_lost, to_string(rung.setting)});
+      const bool is_apart = choice.is_apart && int(curve.points.size()) == choice.at;
+      curve.points.push_back({error, rung.seconds, double(rung.evaluations), is_lost, to_string(rung.setting), is_apart});
     }
     data.curves.push_back(curve);
   }
@@ -172,9 +181,9 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
           "\n# amplification: " + format_significant(measured.reference.amplification, 3) +
           "\n# error: the larger of error_q and error_qd x " + format_significant(measured.reference.run.qd_scale, 6) +
           " s, at the end of the run; way_error, of way_q and way_qd: the largest at " + std::to_string(measured.reference.run.t.size()) +
-          " instants along the run, of fixed steps at those at which one ends, and at all where q is off by a tenth of the motion; energy_error: the largest at the end of any step\n";
+          " instants along the run, of fixed steps at those at which one ends, and at all where q is off by a tenth of the motion; energy_error: the largest at the end of any step, and within steps where it is a tenth of the motion's\n";
   text +=
-      "method,order,step [s],tolerance,runs,median_seconds [s],steps,evaluations,error,error_q,error_qd,"
+      "method,order,step [s],tolerance,runs,least_seconds [s],steps,evaluations,error,error_q,error_qd,"
       "way_error,way_q,way_qd,energy_error [J],status\n";
   for (const Ladder& ladder : measured.ladders)
     for (const Rung& rung : ladder.rungs) {
@@ -259,7 +268,7 @@ Json json_of(const std::string& scene, const Measured& measured, const ChartOpti
                        {"step", rung.setting.step > 0 ? Json(rung.setting.step) : Json(nullptr)},
                        {"tolerance", rung.setting.options.tolerance > 0 ? Json(rung.setting.options.tolerance) : Json(nullptr)},
                        {"runs", rung.runs},
-                       {"median_seconds", rung.seconds},
+                       {"least_seconds", rung.seconds},
                        {"steps", rung.steps},
                        {"evaluations", rung.evaluations},
                        {"error", rung.final.size},
@@ -375,7 +384,7 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--highlight", options->highlight,
                       "taylor,rk4: these in colour, the rest grey (default the cheapest at some error, and auto's)");
   command->add_option("--reach", options->reach, "1e-4,..: errors that the printed table is for (default 1e-3,1e-6,1e-9)");
-  command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
+  command->add_option("--runs", options->runs, "of each rung; the least time counts").range(1, 1000);
   command->add_option("--longest", options->longest, "finer rungs whose runs would take longer by the table of costs are left out; one may take twice as long: 100ms")
       .show_default();
   command->add_option("--error", options->error, "what the chart judges: way (the largest of q and qd along the run, the default), final (at its end) or energy (the largest along the run, J)")

@@ -145,6 +145,11 @@ void draw_curves(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
     for (const ChartPoint& point : data.curves[i].points) {
       // No error at all is as good as the axis shows.
       const double error = point.failed ? NAN : std::max(point.error, frame.x.low);
+      if (point.is_apart && !point.failed) {
+        const Point alone[] = {{error, cost_of(point, cost)}};
+        draw_curve(picture, frame, alone, style, *look.theme);
+        continue;
+      }
       points.push_back({error, cost_of(point, cost)});
       if (point.failed) draw_failure(picture, frame, cost_of(point, cost), style, look);
     }

@@ -32,7 +32,7 @@ struct LogPoint {
 std::vector<LogPoint> good_points(const ChartCurve& curve, ChartCost cost) {
   std::vector<LogPoint> points;
   for (const ChartPoint& p : curve.points)
-    if (!p.failed && p.error > 0 && cost_of(p, cost) > 0 && std::isfinite(p.error))
+    if (!p.failed && !p.is_apart && p.error > 0 && cost_of(p, cost) > 0 && std::isfinite(p.error))
       points.push_back({std::log10(p.error), std::log10(cost_of(p, cost))});
   std::sort(points.begin(), points.end(),
             [](const LogPoint& a, const LogPoint& b) { return a.error < b.error; });
@@ -106,8 +106,10 @@ constexpr std::array<std::pair<double, const char*>, 3> kGuides = {
     {{1, "the best"}, {10, "10\u00D7"}, {100, "100\u00D7"}}};
 
 std::vector<Point> best_curve(const PlotFrame& frame, const WorkPrecision& data, ChartCost cost) {
-  const double low = std::log10(frame.x.low), high = std::log10(frame.x.high);
+  // Beyond the largest answer nothing is the best.
+  const double low = std::log10(frame.x.low), high = std::log10(std::min(frame.x.high, data.largest_answer));
   std::vector<Point> best;
+  if (!(low < high)) return best;
   for (int i = 0; i <= kGuideSamples; ++i) {
     const double error = std::pow(10.0, low + i * (high - low) / kGuideSamples);
     if (const auto least = least_cost(data, cost, error)) best.push_back({error, *least});
@@ -287,7 +289,7 @@ void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecisio
       const ChartCurve& curve = data.curves[k];
       const ChartPoint *first = nullptr, *last = nullptr;
       for (const ChartPoint& point : curve.points) {
-        if (point.failed || !(point.error >= frame.x.low) || !frame.can_show({point.error, cost_of(point, cost)})) continue;
+        if (point.failed || point.is_apart || !(point.error >= frame.x.low) || !frame.can_show({point.error, cost_of(point, cost)})) continue;
         if (!first || point.error < first->error) first = &point;
         if (!last || point.error > last->error) last = &point;
       }
@@ -296,7 +298,7 @@ void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecisio
       if (!lit) {
         std::vector<const ChartPoint*> points;
         for (const ChartPoint& point : curve.points)
-          if (!point.failed && point.error >= first->error && frame.can_show({point.error, cost_of(point, cost)})) points.push_back(&point);
+          if (!point.failed && !point.is_apart && point.error >= first->error && frame.can_show({point.error, cost_of(point, cost)})) points.push_back(&point);
         std::ranges::stable_sort(points, {}, &ChartPoint::error);
         const std::string name = without_formulas(curve.title.empty() ? curve.method : curve.title);
         std::ranges::any_of(points, [&](const ChartPoint* point) { return draw_word_beside(picture, name, look.theme->muted, place(*point), obstacles, look); });

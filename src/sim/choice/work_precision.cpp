@@ -31,6 +31,18 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+// s a run, the last of which is kept.
+double time_run(const Simulation& simulation, std::span<const double> times, const StopRequest& stop, Trajectory* kept = nullptr) {
+  const auto begin = std::chrono::steady_clock::now();
+  int repeats = 0;
+  do {
+    Trajectory trajectory = simulate(simulation, times, stop);
+    if (kept != nullptr) *kept = std::move(trajectory);
+    ++repeats;
+  } while (seconds_since(begin) < kShortestMeasurement);
+  return seconds_since(begin) / repeats;
+}
+
 double apart(ConstVec x, ConstVec reference) {
   double largest = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -80,9 +92,24 @@ void find_errors(const Trajectory& run, const ReferenceRun& reference, Rung& run
   }
 }
 
-double median(std::vector<double>& values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+// Inside of steps, at which a run of long ones may be another motion though its energy is right at all of their ends: Verlet at omega h = 2 jumps
+// from one turning point to the other.
+std::vector<double> instants_within_steps(const MethodSetting& setting, double duration) {
+  constexpr int kMost = 200;
+  const double steps = setting.step > 0 ? std::floor(duration / setting.step) : kMost;
+  const double step = setting.step > 0 ? setting.step : duration / kMost;
+  const int count = int(std::min(steps, double(kMost)));
+  std::vector<double> times;
+  for (int k = 0; k < count; ++k) times.push_back((std::floor(k * steps / count) + 0.5) * step);
+  return times;
+}
+
+// The largest error of the energy within steps, J, where that is gross; else 0: the polynomial between the ends is not what is judged.
+double gross_energy_within_steps(const Simulation& simulation, const MethodSetting& setting, const ReferenceRun& reference, const StopRequest& stop) {
+  const std::vector<double> times = instants_within_steps(setting, simulation.duration);
+  if (times.empty() || !(reference.energy > 0)) return 0;
+  const double error = audit_of(simulation, simulate(simulation, times, stop)).largest_error;
+  return error > kGross * reference.energy ? error : 0;
 }
 
 // 1, 2, 5, 10, ... downwards from `longest`.
@@ -147,14 +174,9 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const Referen
       is_too_long = is_first && seconds_since(begin) > longest;
       return is_too_long || (stop && stop(t));
     };
-    int repeats = 0;
     Trajectory trajectory;
-    do {
-      trajectory = simulate(simulation, end, stop_in_time);
-      if (is_too_long) trajectory.status = RunStatus::out_of_budget;
-      ++repeats;
-    } while (seconds_since(begin) < kShortestMeasurement);
-    seconds.push_back(seconds_since(begin) / repeats);
+    seconds.push_back(time_run(simulation, end, stop_in_time, &trajectory));
+    if (is_too_long) trajectory.status = RunStatus::out_of_budget;
     if (seconds.size() > 1) continue;
     rung.status = trajectory.status;
     rung.trouble = trajectory.trouble;
@@ -167,12 +189,38 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const Referen
     rung.way.size = std::max(rung.way.size, rounding_of(reference.q));
     rung.final.size = std::max(rung.final.size, rounding_of(reference.q_at(reference.t.size() - 1)));
     rung.energy_error = std::max(audit_of(simulation, trajectory).largest_error, audited.energy_at_steps ? audited.energy_at_steps->largest_error : 0.0);
+    rung.energy_error = std::max(rung.energy_error, gross_energy_within_steps(simulation, setting, reference, stop));
     if (trajectory.status != RunStatus::finished) break;  // nobody asks how fast it failed
   }
   rung.runs = int(seconds.size());
-  rung.seconds = median(seconds);
+  rung.seconds = *std::ranges::min_element(seconds);
   return rung;
 }
+
+namespace {
+
+// An evaluation takes about as long on all rungs of a ladder: where it takes longer than on both rungs beside it, the machine did something else.
+void time_outliers_again(Simulation& simulation, Ladder& ladder, const LadderOptions& options, const StopRequest& stop) {
+  constexpr double kOutlier = 1.2;  // scatter of the least of five runs is some per cent
+  constexpr int kTimes = 3;
+  auto& rungs = ladder.rungs;
+  const auto per_evaluation = [&](std::size_t k) { return rungs[k].seconds / double(std::max(1L, rungs[k].evaluations)); };
+  const auto is_outlier = [&](std::size_t k) {
+    return rungs[k].status == RunStatus::finished && per_evaluation(k) > kOutlier * std::max(per_evaluation(k - 1), per_evaluation(k + 1));
+  };
+  const double end[] = {simulation.duration};
+  for (int time = 0; time < kTimes; ++time)
+    for (std::size_t k = 1; k + 1 < rungs.size(); ++k) {
+      if (!is_outlier(k) || (stop && stop(0))) continue;
+      apply(rungs[k].setting, simulation);
+      for (int run = 0; run < options.runs; ++run) {
+        rungs[k].seconds = std::min(rungs[k].seconds, time_run(simulation, end, stop));
+        ++rungs[k].runs;
+      }
+    }
+}
+
+}  // namespace
 
 Ladder climb(Simulation& simulation, const Method& method, const ReferenceRun& reference,
              const LadderOptions& options, const StopRequest& stop) {
@@ -201,6 +249,7 @@ Ladder climb(Simulation& simulation, const Method& method, const ReferenceRun& r
     without_gain = gained || !(best < kSmallError) ? 0 : without_gain + 1;
     if (interrupted || without_gain >= kRungsOfRounding || rung.seconds > kLonger * options.longest_run) break;
   }
+  time_outliers_again(simulation, ladder, options, stop);
   return ladder;
 }
 
@@ -367,6 +416,7 @@ LadderReference find_reference_run(Simulation& simulation, const StopRequest& st
   const auto quads = by_quads(simulation, times, stop);
   LadderReference reference = quads ? *quads : by_doubles(simulation, times, usual, stop);
   reference.run.qd_scale = qd_scale_of(simulation);
+  reference.run.energy = energy_scale(simulation, stop).value_or(0);
   apply(own, simulation);
   return reference;
 }

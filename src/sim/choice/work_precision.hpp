@@ -18,6 +18,7 @@ struct ReferenceRun {
   // By which errors of qd are multiplied to stand beside those of q, s: the time in which rates change by
   // their own size, the largest |qd| over the largest |qdd| of the motion, and no more than its duration.
   double qd_scale = 1;
+  double energy = 0;  // J: the motion's energy scale
 
   ConstVec q_at(std::size_t k) const { return row(q, k); }
   ConstVec qd_at(std::size_t k) const { return row(qd, k); }
@@ -39,8 +40,8 @@ struct Rung {
   MethodSetting setting;
   StateError way;           // the largest at the reference's instants, of fixed steps at those at which one ends, and at all where q is off by a tenth of the motion
   StateError final;         // at the end
-  double energy_error = 0;  // J, the largest at the end of any step
-  double seconds = 0;       // median of the runs, nothing sampled but the end
+  double energy_error = 0;  // J, the largest at the end of any step, and within steps where it is a tenth of the motion's
+  double seconds = 0;       // the least of the runs, nothing sampled but the end: whatever else the machine does adds to it
   int runs = 0;
   long steps = 0, evaluations = 0;
   RunStatus status = RunStatus::finished;

@@ -245,6 +245,21 @@ TEST(Chart, TheChoiceIsCircledWhereItIs) {
       }).empty());
 }
 
+// A choice of another order than the ladder's: no curve bends to it, and it is not what others are held against.
+TEST(Chart, AChoiceThatIsNoRungIsAMarkByItself) {
+  const auto lines = [](const WorkPrecision& data) {
+    return all_of<Capsule>(work_precision_chart(data, kSeconds, look_of(light_theme())), [](const Capsule&) { return true; }).size();
+  };
+  WorkPrecision data = one_curve(0);
+  const std::size_t marks = discs(work_precision_chart(data, kSeconds, look_of(light_theme()))).size(), pieces = lines(data);
+  data.curves[0].points.insert(data.curves[0].points.begin() + 1, {data.curves[0].points[0].error, 1e-9, 1, false, "rk4, order 5"});
+  EXPECT_LT(*least_cost(data, ChartCost::seconds, 1), 1e-8);
+  EXPECT_NE(lines(data), pieces);
+  data.curves[0].points[1].is_apart = true;
+  EXPECT_GT(*least_cost(data, ChartCost::seconds, 1), 1e-8);
+  EXPECT_EQ(discs(work_precision_chart(data, kSeconds, look_of(light_theme()))).size(), marks + 1);
+}
+
 TEST(Chart, LeastCostIsThatOfTheBestMethodAtEachError) {
   WorkPrecision data;
   data.curves = {{"a", 1, {{1e-2, 1, 0, false, ""}, {1e-4, 100, 0, false, ""}}, -1},

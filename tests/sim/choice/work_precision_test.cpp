@@ -115,6 +115,21 @@ TEST(WorkPrecision, ErrorsOfTheWayHaveTheMethodsOrder) {
   }
 }
 
+// Verlet at omega h = 2 stands at turning points at the ends of all steps, with all of its energy; what it does between is another motion. What is right at the
+// ends and nearly so between them keeps its error there.
+TEST(WorkPrecision, AnEnergyThatIsRightAtTheEndsOfStepsAloneIsNot) {
+  Simulation run = run_of("pp", {"0", "-100 * q2 + 9.81"}, 4);
+  run.q0 = {0, 1};
+  ChainSystem system(run);
+  std::vector<double> qdd(2);
+  system.acceleration(0, run.q0, run.qd0, qdd);
+  const double h = 2 / std::sqrt(-qdd[1]);
+  const LadderReference reference = find_reference_run(run);
+  EXPECT_NEAR(reference.run.energy, 50, 1e-3);  // 100 N/m 1 m^2 / 2, as far as steps meet the middle
+  EXPECT_GT(measure(run, {&find_method("verlet"), {}, h}, reference.run, 1).energy_error, 25);
+  EXPECT_LT(measure(run, {&find_method("gauss6"), {}, h}, reference.run, 1).energy_error, 1e-9);
+}
+
 // An implicit method may ask for its equations far more often than the table of costs says: what takes longer is ended, and no rung.
 TEST(WorkPrecision, RungsThatTakeTooLongAreEnded) {
   Simulation run = damped_slider(4);
