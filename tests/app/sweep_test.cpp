@@ -739,13 +739,17 @@ TEST(SweepTable, OverOneKeyIsDrawnAsCurves) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(fs::exists(folder.file("p.csv")));
   const std::string svg = read_whole_file(folder.file("p.svg"));
-  EXPECT_THAT(svg, AllOf(HasSubstr("Payloads"), HasSubstr("4 runs of 0.5 s"), HasSubstr("Each mark is a run"), Not(HasSubstr("crosses"))));
+  EXPECT_THAT(svg, AllOf(HasSubstr("Payloads"), HasSubstr("4 runs of 0.5 s"), HasSubstr("Each mark is a run"), Not(HasSubstr("no value"))));
   EXPECT_EQ(run_program({"check", folder.file("p.svg"), folder.file("p.csv"), "--today"}).status, 0);
-  // One joint; what has no value is a cross on the axis; what is no column is said before anything is computed.
+  EXPECT_EQ(svg.find("doubtful"), std::string::npos);
+  // A quantity a panel; what is doubtful is said with its remedy, unless the method is auto's.
+  ASSERT_EQ(swept({"--peaks", "qd,tau", "--set", "method=explicit_euler", "--set", "step=0.05", "-o", folder.file("d.svg")}).status, 0);
+  EXPECT_THAT(read_whole_file(folder.file("d.svg")), AllOf(HasSubstr("N m]"), HasSubstr("rad/s]"), HasSubstr("4 of 4 runs doubtful"), HasSubstr("try --set method=auto")));
+  // One joint; what has no value is a cross above the axes; what is no column is said before anything is computed.
   ASSERT_EQ(swept({"--peaks", "qd", "--map", "qd2", "-o", folder.file("q.svg")}).status, 0);
   EXPECT_NE(read_whole_file(folder.file("q.svg")), svg);
   ASSERT_EQ(swept({"--map", "low", "-o", folder.file("e.svg")}).status, 0);
-  EXPECT_THAT(read_whole_file(folder.file("e.svg")), HasSubstr("crosses on the axis"));
+  EXPECT_THAT(read_whole_file(folder.file("e.svg")), HasSubstr("no value"));
   EXPECT_THAT(swept({"--map", "qd3", "--peaks", "qd", "-o", folder.file("x.png")}).err, HasSubstr("--map qd3: the table has no such column"));
   EXPECT_FALSE(fs::exists(folder.file("x.csv")));
   const ProgramResult falling = run_program({"sweep", scene, "--over", "start.q.1=1,0", "--peaks", "qd", "-o", folder.file("f.png")});

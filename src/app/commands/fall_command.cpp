@@ -242,8 +242,7 @@ ResponseChart chart_of(const FallTable& table, const Scene& scene) {
   chart.title = "When does it fall?";
   chart.subtitle = scene.name + ", " + std::to_string(table.rows.size()) + " runs of " + format_quantity(table.duration, "s") + ", " + table.method;
   chart.x = curve_axis_of(table.sweep);
-  chart.y_title = "instant [s]";
-  chart.from_zero = true;
+  ResponsePanel instants{"instant [s]", true, {}};
   const double degrees = degrees_of(table.sweep);
   ResponseCurve falls{"down", {}}, tips{"foot tips", {}};
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -253,16 +252,18 @@ ResponseChart chart_of(const FallTable& table, const Scene& scene) {
     tips.points.push_back({x, row.tips});
   }
   const auto any = [](const ResponseCurve& curve) { return std::ranges::any_of(curve.points, [](const ResponsePoint& one) { return one.y.has_value(); }); };
-  chart.curves.push_back(falls);
-  if (any(tips)) chart.curves.push_back(tips);
-  if (!std::ranges::all_of(falls.points, [](const ResponsePoint& one) { return one.y.has_value(); }))
-    chart.footer = "Crosses on the axis: not down within " + format_quantity(table.duration, "s") + ".";
-  if (any(tips)) chart.footer += " Behind tipping the foot is held where a real one turns.";
+  instants.curves.push_back(falls);
+  if (any(tips)) instants.curves.push_back(tips);
+  chart.panels.push_back(instants);
+  chart.missing = "not down within " + format_quantity(table.duration, "s");
+  if (any(tips)) chart.footer = "Behind tipping the foot is held where a real one turns.";
   for (const FallEdge& edge : table.edges) {
     const double x = (edge.before + edge.behind) / 2 * degrees;
     chart.edges.push_back({x, format_significant(x, 4)});
-    chart.footer += " At " + format_significant(x, 4) + " from '" + edge.from + "' to '" + edge.to + "'.";
+    chart.footer += std::string(chart.footer.empty() ? "" : " ") + "At " + format_significant(x, 4) + " from '" + edge.from + "' to '" + edge.to + "'.";
+    chart.needed += (chart.needed.empty() ? "Until " : "until ") + format_significant(x, 4) + ": " + edge.from + "; ";
   }
+  if (!table.edges.empty()) chart.needed += "beyond: " + table.edges.back().to;
   return chart;
 }
 

@@ -429,7 +429,7 @@ void add_sweep_command(CommandLine& app) {
                       "table; names as of `simulate --columns`");
   command->add_repeatable("--last", options->last,
                           "an expression whose value at the end of each run is a column of the table, like 'x_G' or 'sqrt((x_G - 0.9)^2 + (y_G - 0.3)^2)'; repeatable");
-  command->add_option("--map", options->map, "the column that a picture shows, of curves those of all joints, like tau (default the first of --peaks, else of --last)");
+  command->add_option("--map", options->map, "the column that a picture shows, of curves those of all joints, like tau (default the first of --peaks, else of --last; of curves all of them, a panel each)");
   options->figure.command = command;
   command->add_option("--at", options->at, "instant that pictures show, in seconds (default 0)");
   command->add_option("--shard", options->shard, "an equal share of the runs, like 3/8; slurm: that of the array job's task");
@@ -446,7 +446,7 @@ void add_sweep_command(CommandLine& app) {
                   "Example: chainreel sweep rr_free --over start.q.1=0:90deg:4 --over gravity.2=-9.81,-1.62 --peaks qd,energy_error -o out/grid.csv\n"
                   "         chainreel sweep rr_free --over start.q.1=0:90deg:10 --over payload.mass=0:5:6 --peaks qd --map qd2 -o out/map.png\n"
                   "         chainreel sweep rr_torque --over payload.mass=0:3:7 --peaks tau,qd -o out/payload.png\n"
-                  "         chainreel sweep pp_spring --over parameters.k=20:220:6 --over duration=1s,2s --last 'y_G - 0.3' -o out/last.png");
+                  "         chainreel sweep pp_spring --over start.q.2=0.2:1:5 --over duration=1s:3s:5 --last 'y_G - 0.3' -o out/last.png");
   command->callback([options] { run_sweep(*options); });
 }
 

@@ -21,6 +21,7 @@ namespace chainreel {
 namespace {
 
 const std::string kPeak = "peak_";
+const std::string kEnergyOff = kDoubtful + "the energy is off";  // a row's doubt of a method that is too coarse for it
 constexpr const char* kGood = "good";  // of each row: 1, or 0 where the run failed
 
 // "qd1" of "peak_qd1 [rad/s]".
@@ -94,26 +95,39 @@ void require_map_grid(const Grid& grid) {
 
 namespace {
 
-// The columns whose curves one picture has.
-std::vector<std::size_t> columns_together(const std::vector<std::string>& header, const Grid& grid, const std::vector<std::string>& last, const std::string& wanted) {
-  const auto is_peak = [&](std::size_t i) { return ColumnName(header[i]).name.starts_with(kPeak); };
+// The columns of one quantity, as of all joints.
+using Quantity = std::vector<std::size_t>;
+
+bool is_peak(const std::string& column) {
+  return ColumnName(column).name.starts_with(kPeak);
+}
+
+Quantity joints_of(const std::vector<std::string>& header, std::size_t first) {
   const auto stem_of = [&](std::size_t i) { return without_number(plain_name(header[i])); };
-  std::size_t first = 1 + grid.axes().size();
-  while (first < header.size() && !(is_peak(first) && stem_of(first) == wanted)) ++first;
-  if (first == header.size()) {
-    first = find_column(header, grid, last, wanted);
-    if (!wanted.empty() || !is_peak(first)) return {first};
-  }
-  std::vector<std::size_t> found;
+  Quantity found;
   for (std::size_t i = first; i < header.size(); ++i)
-    if (is_peak(i) && stem_of(i) == stem_of(first) && ColumnName(header[i]).unit == ColumnName(header[first]).unit) found.push_back(i);
+    if (is_peak(header[i]) && stem_of(i) == stem_of(first) && ColumnName(header[i]).unit == ColumnName(header[first]).unit) found.push_back(i);
   return found;
+}
+
+// The quantities that one picture has curves of: `wanted`, else all peaks, else all of `last`.
+std::vector<Quantity> quantities_of(const std::vector<std::string>& header, const Grid& grid, const std::vector<std::string>& last, const std::string& wanted) {
+  const std::size_t begin = 1 + grid.axes().size();
+  std::vector<Quantity> all;
+  for (std::size_t i = begin; i < header.size(); ++i) {
+    const bool is_told = std::ranges::any_of(all, [i](const Quantity& one) { return std::ranges::count(one, i) > 0; });
+    if (is_peak(header[i]) && !is_told && (wanted.empty() || without_number(plain_name(header[i])) == wanted)) all.push_back(joints_of(header, i));
+  }
+  if (all.empty() && wanted.empty())
+    for (const std::string& expression : last) all.push_back({find_column(header, grid, last, expression)});
+  if (all.empty()) all.push_back({find_column(header, grid, last, wanted)});
+  return all;
 }
 
 // A run's number in a column.
 struct RowValue {
   std::optional<double> value;  // nothing where the run failed, too; of a peak the size: where its sign changes from run to run no neighbours would be alike
-  bool is_doubtful = false;
+  bool is_doubtful = false, is_off_in_energy = false;
 };
 
 // A table's rows, each with its run and its value in each of the columns that `choose` picks of the header.
@@ -138,8 +152,8 @@ std::vector<std::string> read_rows(const Grid& grid, const std::string& path, co
     if (fields.size() != header.size() || !run || !(*run >= 0 && *run < double(grid.size()))) throw Error(ExitCode::bad_input, "is no row of this sweep", place);
     const bool is_good = good == header.size() || fields[good] == "1";
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      RowValue found{is_good ? parse_number(fields[columns[i]]) : std::nullopt, fields.back().starts_with(kDoubtful)};
-      if (found.value && ColumnName(header[columns[i]]).name.starts_with(kPeak)) found.value = std::abs(*found.value);
+      RowValue found{is_good ? parse_number(fields[columns[i]]) : std::nullopt, fields.back().starts_with(kDoubtful), fields.back().starts_with(kEnergyOff)};
+      if (found.value && is_peak(header[columns[i]])) found.value = std::abs(*found.value);
       look(std::size_t(*run), i, found);
     }
   }
@@ -150,14 +164,15 @@ std::vector<std::string> read_rows(const Grid& grid, const std::string& path, co
 }
 
 std::string runs_text(const Grid& grid, const Scene& scene) {
-  return std::to_string(grid.size()) + " runs of " + format_quantity(scene.duration, "s") + method_of(grid, scene);
+  const bool is_swept = std::ranges::any_of(grid.axes(), [](const Sweep& axis) { return axis.key == "duration"; });
+  return std::to_string(grid.size()) + " runs" + (is_swept ? "" : " of " + format_quantity(scene.duration, "s")) + method_of(grid, scene);
 }
 
 }  // namespace
 
 void require_map_column(const std::vector<std::string>& names, const Grid& grid, const std::vector<std::string>& last, const std::string& wanted) {
   if (grid.axes().size() == 1)
-    columns_together(names, grid, last, wanted);
+    quantities_of(names, grid, last, wanted);
   else
     find_column(names, grid, last, wanted);
 }
@@ -193,33 +208,60 @@ StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& 
   return map;
 }
 
+namespace {
+
+// "3 of 7 runs are doubtful: energy off by more than 1 %; try --set method=auto"
+std::string doubts_text(std::size_t doubtful, std::size_t of_energy, const Grid& grid, const Scene& scene) {
+  if (doubtful == 0) return "";
+  const std::string count = std::to_string(doubtful) + " of " + std::to_string(grid.size()) + (grid.size() == 1 ? " run" : " runs") + " doubtful: ";
+  if (of_energy < doubtful) return count + "the table's column `trouble` says why";
+  return count + "energy off by > 1 %" + (scene.chooses_method() || varies_method(grid) ? "" : "; try --set method=auto");
+}
+
+std::string title_of_quantity(const std::vector<std::string>& names, const std::vector<std::string>& last) {
+  if (std::ranges::count(last, names.front()) > 0) return names.front() + " at the end";
+  return title_of_column(names.size() == 1 ? names.front() : stem_column(names.front()));
+}
+
+}  // namespace
+
 ResponseChart sweep_curves(const Grid& grid, const Scene& scene, const std::string& path, const std::vector<std::string>& last, const std::string& wanted) {
   const Sweep& x = grid.axes().front();
   ResponseChart chart;
-  std::size_t doubtful = 0, without = 0;
+  std::vector<Quantity> quantities;
+  std::vector<ResponseCurve> curves;  // of all columns
+  std::size_t doubtful = 0, of_energy = 0;
   const auto choose = [&](const std::vector<std::string>& header) {
-    std::vector<std::size_t> columns = columns_together(header, grid, last, wanted);
-    chart.curves.resize(columns.size());
-    for (ResponseCurve& curve : chart.curves)
+    quantities = quantities_of(header, grid, last, wanted);
+    std::vector<std::size_t> columns;
+    for (const Quantity& one : quantities) columns.insert(columns.end(), one.begin(), one.end());
+    curves.resize(columns.size());
+    for (ResponseCurve& curve : curves)
       for (const double value : x.numbers) curve.points.push_back({value * degrees_of(x)});
     return columns;
   };
-  const std::vector<std::string> columns = read_rows(grid, path, choose, [&](std::size_t run, std::size_t column, const RowValue& found) {
-    ResponsePoint& point = chart.curves[column].points[run];
+  const std::vector<std::string> names = read_rows(grid, path, choose, [&](std::size_t run, std::size_t column, const RowValue& found) {
+    ResponsePoint& point = curves[column].points[run];
     point.y = found.value;
     point.is_doubtful = found.is_doubtful;
-    doubtful += column == 0 && found.value && found.is_doubtful;
-    without += column == 0 && !found.value;
+    doubtful += column == 0 && found.is_doubtful;
+    of_energy += column == 0 && found.is_off_in_energy;
   });
   chart.title = title_over_runs(scene);
   chart.subtitle = runs_text(grid, scene);
+  chart.warning = doubts_text(doubtful, of_energy, grid, scene);
   chart.x = curve_axis_of(x);
-  chart.from_zero = ColumnName(columns.front()).name.starts_with(kPeak);
-  const bool is_at_end = std::ranges::count(last, columns.front()) > 0;
-  chart.y_title = is_at_end ? columns.front() + " at the end" : title_of_column(columns.size() == 1 ? columns.front() : stem_column(columns.front()));
-  for (std::size_t i = 0; i < columns.size(); ++i) chart.curves[i].title = "$" + plain_name(columns[i]) + "$";
+  std::size_t next = 0;
+  for (const Quantity& quantity : quantities) {
+    const std::vector<std::string> own(names.begin() + std::ptrdiff_t(next), names.begin() + std::ptrdiff_t(next + quantity.size()));
+    ResponsePanel panel{title_of_quantity(own, last), is_peak(own.front()), {}};
+    for (const std::string& name : own) {
+      panel.curves.push_back(std::move(curves[next++]));
+      panel.curves.back().title = "$" + plain_name(name) + "$";
+    }
+    chart.panels.push_back(std::move(panel));
+  }
   chart.footer = "Each mark is a run; the table beside has its numbers.";
-  if (without > 0) chart.footer += " Those without a value are crosses on the axis.";
   if (doubtful > 0) chart.footer += " Rings are doubtful: the column `trouble` says why.";
   return chart;
 }

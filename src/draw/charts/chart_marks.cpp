@@ -7,6 +7,7 @@
 #include <set>
 
 #include "draw/charts/chart.hpp"
+#include "draw/charts/obstacles.hpp"
 #include "picture/formula_words.hpp"
 #include "picture/point.hpp"
 
@@ -22,7 +23,6 @@ constexpr double kRing = 0.0185, kRingLine = 0.0035;
 constexpr double kFailureShift = 0.020, kFailureSize = 1.25;
 constexpr double kSameCost = 1e-9;    // decades
 constexpr double kLikeColours = 0.139;  // in Oklab: nearer ones are taken for one, as two greens
-constexpr double kClearance = 0.009;  // half a marker and a little air
 
 struct LogPoint {
   double error, cost;
@@ -56,30 +56,6 @@ double least_log_cost(const WorkPrecision& data, ChartCost cost, double log_erro
 Point page_point(const PlotFrame& frame, const LogPoint& p) {
   return frame.at({std::pow(10.0, p.error), std::pow(10.0, p.cost)});
 }
-
-constexpr int kNoCurve = -1;
-
-// What words and triangles keep clear of.
-struct Obstacles {
-  struct Line {
-    Point a, b;
-    int curve;
-  };
-  Rect inside;  // all must lie here
-  std::vector<Line> lines;
-  std::vector<Rect> boxes;
-
-  // `curve` may pass through.
-  bool is_free(const Rect& box, int curve = kNoCurve) const {
-    const Rect wide = widened(box, kClearance);
-    return holds(inside, box) &&
-           std::none_of(boxes.begin(), boxes.end(),
-                        [&](const Rect& other) { return overlap(other, wide); }) &&
-           std::none_of(lines.begin(), lines.end(), [&](Line line) {
-             return (curve == kNoCurve || line.curve != curve) && cut_segment(wide, line.a, line.b);
-           });
-  }
-};
 
 Obstacles obstacles_of(const PlotFrame& frame, const WorkPrecision& data, ChartCost cost) {
   Obstacles obstacles{frame.box, {}, {}};

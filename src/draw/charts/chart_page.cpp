@@ -45,6 +45,11 @@ Rect draw_words(Picture& picture, const ChartText& text, const ChartLook& look) 
                           width);
     top -= kAfterSubtitle * muted.size;
   }
+  if (!text.warning.empty()) {
+    const TextStyle bold{Face::label_bold, style.text(size::kTick), look.theme->ink, Align::left};
+    top -= draw_paragraph(picture, *look.fonts, text.warning, bold, {left, top - kCapHeight * bold.size}, width);
+    top -= kAfterSubtitle * bold.size;
+  }
   if (!text.footer.empty()) {
     const auto [lower_left, lower_right] = row_at(false);
     const TextStyle small{Face::label, style.text(size::kTick), look.theme->muted, Align::left};
@@ -78,7 +83,7 @@ Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& l
     Picture measured;
     return draw_words(measured, shown, look).height() / look.height;
   };
-  if (look.is_small && height() < kMostlyChart) shown.footer.clear();
+  if (look.is_small && height() < kMostlyChart) shown.footer = text.needed;
   if (look.is_small && height() < kMostlyChart) shown.subtitle.clear();
   const Rect area = draw_words(picture, shown, look);
   if (area.height() < kLeastHeight)

@@ -15,6 +15,8 @@ inline constexpr double kLabelGap = 0.045;  // units of H, between the frame and
 struct ChartText {
   std::string title, subtitle;
   std::string footer;  // small, in as many lines as it needs
+  std::string needed{};   // what stands in the footer's place where that has no room
+  std::string warning{};  // below the subtitle, in bold; never left out
 };
 
 struct ChartLook {
@@ -36,7 +38,7 @@ Picture as_page(const Picture& picture, const ChartLook& look);
 
 // An empty page with the chart's words. The title shrinks to its row; subtitle and footer are broken into
 // lines, and end beside the logo; on small ones footer and subtitle, in this order, are left out where they would leave less
-// than kMostlyChart of the page's height. Returns what is left for the axes. Throws Error (exit 3) where the words leave no room.
+// than kMostlyChart of the page's height, but for what is needed. Returns what is left for the axes. Throws Error (exit 3) where the words leave no room.
 Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& look);
 
 // Throws Error (exit 3) where what stands beside axes leaves them no room.

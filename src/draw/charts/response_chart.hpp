@@ -26,17 +26,26 @@ struct ResponseEdge {
   std::string value;
 };
 
-struct ResponseChart {
-  std::string title, subtitle;
-  Axis x;
+// Curves of one quantity, on axes of their own.
+struct ResponsePanel {
   std::string y_title;
   bool from_zero = false;  // sizes, whose axis begins at zero
   std::vector<ResponseCurve> curves;
+};
+
+struct ResponseChart {
+  std::string title, subtitle;
+  std::string warning{};  // what speaks against the numbers: stands on every page
+  Axis x;
+  std::vector<ResponsePanel> panels;  // one below the other
   std::string footer;
+  std::string needed{};  // of the footer, in few words: what a small page tells
+  std::string missing = "no value";  // what runs have whose mark is a cross
   std::vector<ResponseEdge> edges{};
 };
 
-// Runs without a value are crosses on the axis, doubtful ones rings.
+// Runs without a value are crosses in a strip above the panel, doubtful ones rings, which no line joins. Curves of one panel that are equal are one
+// with all names. A curve that ends before the last run is named beside its last mark. Panels that have no room are left out, which the foot says.
 Picture response_chart(const ResponseChart& data, const ChartLook& look);
 
 }  // namespace chainreel

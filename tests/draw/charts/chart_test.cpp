@@ -326,10 +326,11 @@ TEST(EnergyChart, SaysWhichRunsEndedEarly) {
 
 // --- stability ---
 
-// Marks lie where the axes say, a gap parts a curve, and what has no value is a cross on the axis.
+// Marks lie where the axes say, a gap parts a curve, and what has no value is a cross above.
 TEST(ResponseChart, HasAMarkARunAndGapsWhereThereIsNone) {
-  ResponseChart data{"Peaks", "5 runs", {Scale::linear, 0, 4, "payload [kg]"}, "largest $|tau|$ [N m]", true, {}, "Each mark is a run"};
-  data.curves = {{"$tau1$", {{0, 10.0}, {1, 20.0}, {2, {}}, {3, 40.0, true}, {4, 50.0}}}, {"$tau2$", {{0, 5.0}, {1, 5.0}, {2, {}}, {3, 5.0}, {4, 5.0}}}};
+  ResponseChart data{"Peaks", "5 runs", "", {Scale::linear, 0, 4, "payload [kg]"}, {{"largest $|tau|$ [N m]", true, {}}}, "Each mark is a run"};
+  std::vector<ResponseCurve>& curves = data.panels[0].curves;
+  curves = {{"$tau1$", {{0, 10.0}, {1, 20.0}, {2, {}}, {3, 40.0, true}, {4, 50.0}}}, {"$tau2$", {{0, 5.0}, {1, 5.0}, {2, {}}, {3, 5.0}, {4, 5.0}}}};
   const Picture picture = response_chart(data, look_of(light_theme()));
   expect_words_on_page(picture);
   EXPECT_TRUE(says(picture, "Each mark is a run"));
@@ -340,17 +341,21 @@ TEST(ResponseChart, HasAMarkARunAndGapsWhereThereIsNone) {
   ASSERT_EQ(places.size(), 4u);
   EXPECT_NEAR(places[2].x - places[1].x, 3 * (places[1].x - places[0].x), 1e-9);
   EXPECT_NEAR(places[2].y - places[1].y, 3 * (places[1].y - places[0].y), 1e-9) << "10, 20 and 50 N m";
-  // Without the gap there is one piece less of the first curve, which is solid, a disc more, and no cross on the axis.
+  EXPECT_TRUE(says(picture, "no value"));
+  // Without the gap the first curve, which is solid, is one piece from run 0 to 2; the doubtful run 3 is joined to nothing; there is a disc more, and no cross.
   ResponseChart data_without = data;
-  data_without.curves[0].points[2].y = 30;
+  data_without.panels[0].curves[0].points[2].y = 30;
   const Picture whole = response_chart(data_without, look_of(light_theme()));
   EXPECT_EQ(discs(whole).size(), 5u);
-  EXPECT_EQ(all_of<Trail>(picture).size(), all_of<Trail>(whole).size() + 1);
+  EXPECT_FALSE(says(whole, "no value"));
+  EXPECT_EQ(all_of<Trail>(picture).size(), all_of<Trail>(whole).size()) << "0 to 1, and 0 to 2";
+  data_without.panels[0].curves[0].points[3].is_doubtful = false;
+  EXPECT_EQ(discs(response_chart(data_without, look_of(light_theme()))).size(), 6u) << "a ring less";
   const auto crosses = [](const Picture& drawn) {
     return std::ranges::count_if(all_of<Capsule>(drawn), [](const Capsule& one) { return one.paint.fill == light_theme().muted; });
   };
-  EXPECT_EQ(crosses(picture), crosses(whole) + 2) << "two strokes";
-  data.curves.clear();
+  EXPECT_EQ(crosses(picture), crosses(whole) + 4) << "two strokes, and two before what is said of it";
+  data.panels.clear();
   EXPECT_NO_THROW(response_chart(data, look_of(dark_theme()))) << "nothing to show";
 }
 
