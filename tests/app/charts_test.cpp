@@ -344,6 +344,19 @@ TEST(StabilityCommand, PutsTheBorderWhereTheTheoryHasIt) {
   EXPECT_THAT(result.out, HasSubstr("and at instants of the run")) << "the scene starts away from its spring's rest";
 }
 
+// A line that a twentieth of the cells contradict is no limit: it is left out, which is said; colours are shares of the motion's energy.
+TEST(StabilityCommand, LeavesOutATheoryThatCellsContradict) {
+  const TemporaryFolder folder;
+  const ProgramResult far = run_program({"stability", "assets/scenes/rr_free.yaml", "--x", "step=0.01:0.3:8:log", "--y", "start.q.2=-90deg:90deg:5", "-o", folder.file("far.svg")});
+  ASSERT_EQ(far.status, 0) << far.err;
+  EXPECT_THAT(far.out, HasSubstr("limit of the linearised motion is left out"));
+  EXPECT_THAT(read_whole_file(folder.file("far.svg")), AllOf(HasSubstr("linearised motion"), HasSubstr("&gt; 100 %"), HasSubstr("energy [%]"), Not(HasSubstr("Theory:"))));
+  const ProgramResult linear = run_program({"stability", "assets/scenes/pp_spring.yaml", "--x", "step=0.05:0.3:12", "--y", "start.q.2=0.1:0.4:3", "-o", folder.file("near.svg")});
+  ASSERT_EQ(linear.status, 0) << linear.err;
+  EXPECT_THAT(linear.out, Not(HasSubstr("left out")));
+  EXPECT_THAT(read_whole_file(folder.file("near.svg")), HasSubstr("Theory:"));
+}
+
 TEST(ChartCommand, PrintsTheCheapestOfTheErrorsThatAreAsked) {
   const TemporaryFolder folder;
   const auto chart = [&](const std::string& reach) {
@@ -371,7 +384,7 @@ TEST(StabilityCommand, DrawsAMapOfEachMethodThatIsNamed) {
   EXPECT_THAT(with({"--json", "-o", folder.file("b.csv")}).err, HasSubstr("--json tells of one map"));
   EXPECT_EQ(with({"-o", folder.file("map.csv")}).status, 6) << "files that are there stay";
   // Axes that would have no room are refused, as other figures are.
-  for (const char* width : {"30", "50"}) {
+  for (const char* width : {"20", "30"}) {
     const ProgramResult narrow = with({"-o", folder.file("n.png"), "--width-mm", width, "--height-mm", "80"});
     EXPECT_EQ(narrow.status, 3) << width;
     EXPECT_THAT(narrow.err, HasSubstr("take a wider page")) << width;

@@ -101,9 +101,23 @@ struct Agreement {
       otherwise += cell.stable.has_value() && *cell.stable == cell.failed;
     }
   }
-  // A twentieth is what cells beside the line are.
+  // A twentieth is what cells beside the line are: a line that is wrong more often tells nothing.
   bool is_rough() const { return 20 * otherwise > known; }
+  std::string text() const {
+    return "The limit of the linearised motion is left out: " + std::to_string(otherwise) + " of " + std::to_string(known) +
+           " cells do otherwise than it, which knows neither of energies nor of motions that are far from linear.";
+  }
 };
+
+// Of the motion's energy; beyond all bounds where there is none that is known.
+double percent_of_motion(const StabilityCell& cell) {
+  return cell.energy_error == 0 ? 0 : 100 * cell.energy_error / cell.energy_scale;
+}
+
+std::string unknown_text(const StabilityCells& cells) {
+  const auto unknown = std::ranges::count_if(cells.cells, [](const StabilityCell& cell) { return !cell.failed && std::isnan(cell.energy_scale); });
+  return unknown == 0 ? "" : " The energy of the motion is not known of " + std::to_string(unknown) + (unknown == 1 ? " cell, which is pale." : " cells, which are pale.");
+}
 
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   StabilityMap map;
@@ -113,21 +127,21 @@ StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   map.y = map_axis(cells.y);
   map.nx = int(cells.x.values.size());
   map.ny = int(cells.y.values.size());
-  map.error_title = "largest |energy error| [J]";
-  for (const StabilityCell& cell : cells.cells) map.cells.push_back({cell.failed, cell.energy_error});
+  map.error_title = "|energy error| / energy [%]";
+  map.most = 100;
+  map.pale = "> 100 %";
+  for (const StabilityCell& cell : cells.cells) map.cells.push_back({cell.failed, percent_of_motion(cell)});
   add_limits(cells, map);
   if (cells.boundary.empty()) add_edges(cells, map);
   map.footer = "Each cell is a run of the scene's duration and of at least " + std::to_string(kLeastSteps) +
-               " steps; failed: no end, or an energy error above " + format_shortest(kFailedEnergy) +
-               " times the motion's largest kinetic energy.";
-  const Agreement agreement(cells);
-  if (!map.boundaries.empty()) map.footer += " Theory: the limit of the motion linearised about " + place_of(cells) + ".";
-  if (!map.boundaries.empty() && agreement.is_rough()) {
-    for (MapBoundary& boundary : map.boundaries) boundary.is_rough = true;
-    if (map.boundaries.front().label == kTheory) map.boundaries.front().label = "linearised";
-    map.footer += " " + std::to_string(agreement.otherwise) + " of " + std::to_string(agreement.known) + " cells do otherwise than it, which knows neither of energies nor of motions that are far from linear.";
+               " steps; colour: its largest energy error against the motion's largest kinetic energy; failed: no end, or an error above " +
+               format_shortest(kFailedEnergy) + " times that." + unknown_text(cells);
+  if (!map.boundaries.empty()) {
+    const Agreement agreement(cells);
+    map.footer += agreement.is_rough() ? " " + agreement.text() : " Theory: the limit of the motion linearised about " + place_of(cells) + ".";
+    if (agreement.is_rough()) map.boundaries.clear();
+    if (!agreement.is_rough() && cells.about_motion > 0) map.footer += " " + std::string(kNoEquilibrium) + ".";
   }
-  if (!map.boundaries.empty() && cells.about_motion > 0) map.footer += " " + std::string(kNoEquilibrium) + ".";
   if (scene.limit == LimitPolicy::clamp)
     map.footer += " Torques are cut at the joints' efforts, which bounds errors of the energy, too: a run may chatter and not fail.";
   return map;
@@ -156,6 +170,7 @@ void print_map_summary(const StabilityCells& cells) {
       "%s: %zu of %zu cells fail (no end, or an energy error above %s times the motion's); %d threads%s\n",
       cells.method.c_str(), failed, cells.cells.size(), format_shortest(kFailedEnergy).c_str(), cells.threads,
       cells.in_batches ? ", stepped in batches" : "");
+  if (const Agreement agreement(cells); agreement.is_rough()) std::printf("%s\n", agreement.text().c_str());
   if (cells.along_runs > 0 || cells.about_motion > 0)
     std::printf("theory: of the motion linearised about %s%s\n", place_of(cells).c_str(), cells.about_motion > 0 ? (std::string(". ") + kNoEquilibrium).c_str() : "");
 }

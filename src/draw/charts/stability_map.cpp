@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::array<std::uint32_t, 10> kViridis = {0x440154, 0x482878, 0x3E4989, 0x31688E, 0x26828E,
                                                     0x1F9E89, 0x35B779, 0x6ECE58, 0xB5DE2B, 0xFDE725};
-constexpr double kBarGap = 0.045, kBarWidth = 0.035, kBarToLabel = 0.016;
+constexpr double kBarGap = 0.045, kSmallBarGap = 0.025, kBarWidth = 0.035, kBarToLabel = 0.016;
 constexpr int kBarSteps = 128;
 constexpr double kSwatch = 0.044, kSwatchToText = 0.012;
 constexpr double kDotOfCell = 0.16, kLargestDot = 0.0075, kDotEdge = 0.0022;  // radius: of the cell's shorter side, and at most
-constexpr double kHalo = 0.0085, kBoundaryLine = 0.0040, kRoughLine = 0.0022;
+constexpr double kHalo = 0.0085, kBoundaryLine = 0.0040;
 constexpr double kLabelPad = 0.010, kLabelDistance = 0.030;
 
 Axis value_axis(const StabilityMap& data) {
@@ -37,21 +37,33 @@ Axis value_axis(const StabilityMap& data) {
   return rounded_out({Scale::linear, low, high, data.error_title});
 }
 
+bool is_pale(const StabilityMap& data, const MapCell& cell) {
+  return !cell.failed && !data.is_linear && !(cell.error <= data.most);
+}
+
 // Whole decades around the errors of the runs that held.
 Axis error_axis(const StabilityMap& data) {
   if (data.is_linear) return value_axis(data);
   double low = HUGE_VAL, high = 0;
   for (const MapCell& cell : data.cells) {
-    if (cell.failed || !(cell.error > 0) || !std::isfinite(cell.error)) continue;
+    if (cell.failed || !(cell.error > 0) || !std::isfinite(cell.error) || is_pale(data, cell)) continue;
     low = std::min(low, cell.error);
     high = std::max(high, cell.error);
   }
-  if (!(high > 0)) low = 0.1, high = 1;
+  if (!(high > 0)) low = 0.1 * std::min(data.most, 1.0), high = std::min(data.most, 1.0);
   return rounded_out({Scale::log, low, high, data.error_title});
 }
 
 Color failed_color(const Theme& theme) {
   return theme.grid;
+}
+
+// Beyond the end of the colours: the last of them, hardly there.
+Color pale_color(const Theme& theme) {
+  constexpr double kThere = 0.3;
+  const Color last = map_color(1), page = theme.background;
+  const auto mix = [](std::uint8_t from, std::uint8_t to) { return std::uint8_t(std::lround(from + kThere * (double(to) - from))); };
+  return {mix(page.r, last.r), mix(page.g, last.g), mix(page.b, last.b), 1};
 }
 
 Cells cells_of(const StabilityMap& data, const Axis& errors, const Rect& box, const Theme& theme) {
@@ -61,7 +73,7 @@ Cells cells_of(const StabilityMap& data, const Axis& errors, const Rect& box, co
     const double share = data.is_linear   ? (cell.error - errors.low) / (errors.high - errors.low)
                          : cell.error > 0 ? (std::log10(cell.error) - low) / decades
                                           : 0;
-    cells.colors.push_back(cell.failed ? failed_color(theme) : map_color(share));
+    cells.colors.push_back(cell.failed ? failed_color(theme) : is_pale(data, cell) ? pale_color(theme) : map_color(share));
   }
   return cells;
 }
@@ -85,9 +97,8 @@ void draw_doubtful_dots(Picture& picture, const StabilityMap& data, const Rect& 
 
 void draw_boundary_line(Picture& picture, const PlotFrame& frame, const MapBoundary& boundary,
                         const Theme& theme) {
-  const double width = boundary.is_rough ? kRoughLine : kBoundaryLine;
-  draw_curve(picture, frame, boundary.points, {theme.background, kHalo - kBoundaryLine + width, Dash::solid, Marker::none}, theme);
-  draw_curve(picture, frame, boundary.points, {theme.ink, width, boundary.is_rough ? Dash::dashed : Dash::solid, Marker::none}, theme);
+  draw_curve(picture, frame, boundary.points, {theme.background, kHalo, Dash::solid, Marker::none}, theme);
+  draw_curve(picture, frame, boundary.points, {theme.ink, kBoundaryLine, Dash::solid, Marker::none}, theme);
 }
 
 // Even steps along the boundary inside the frame.
@@ -168,55 +179,97 @@ double widest_tick(const Axis& errors, const PlotStyle& style) {
   return widest;
 }
 
-struct MapKey {
-  std::string hatched, dotted;  // none where no cell is
+// What cells are that have no colour of the bar, or a dot; none where no cell is.
+class MapKey {
+ public:
+  MapKey(const StabilityMap& data, const ChartLook& look) : look_(look), style_(look.plot_style()) {
+    const auto any = [&data](const auto& is) { return std::ranges::any_of(data.cells, is); };
+    if (any([](const MapCell& cell) { return cell.failed; })) words_[kHatched] = data.hatched;
+    if (any([&data](const MapCell& cell) { return is_pale(data, cell); })) words_[kPale] = data.pale;
+    if (any([](const MapCell& cell) { return cell.doubtful; })) words_[kDotted] = data.dotted;
+  }
+
+  bool is_empty() const { return std::ranges::all_of(words_, &std::string::empty); }
+  double pitch() const { return kSwatch + style_.text(size::kTick); }
+  double width_of(std::size_t kind) const { return words_[kind].empty() ? 0 : kSwatch + kSwatchToText + line_of(kind).advance; }
+  double widest() const { return std::max({width_of(kHatched), width_of(kPale), width_of(kDotted)}); }
+
+  // One below the other from `bottom` up; returns where they end.
+  double draw_column(Picture& picture, double left, double bottom) const {
+    for (std::size_t kind = 0; kind < words_.size(); ++kind)
+      if (!words_[kind].empty()) draw_one(picture, kind, {left, bottom}), bottom += pitch();
+    return bottom;
+  }
+
+  // One beside the other, up to `right`.
+  void draw_row(Picture& picture, double right, double bottom) const {
+    for (std::size_t kind = words_.size(); kind-- > 0;)
+      if (!words_[kind].empty()) draw_one(picture, kind, {right - width_of(kind), bottom}), right -= width_of(kind) + size::kGutter;
+  }
+
+ private:
+  enum Kind : std::size_t { kHatched, kPale, kDotted };
+
+  TextLine line_of(std::size_t kind) const { return lay_out_text(*look_.fonts, words_[kind], {Face::label, style_.text(size::kTick), look_.theme->ink, Align::left}); }
+
+  void draw_one(Picture& picture, std::size_t kind, Point at) const {
+    const Rect swatch = {at.x, at.y, at.x + kSwatch, at.y + kSwatch};
+    const Color color = kind == kHatched ? failed_color(*look_.theme) : kind == kPale ? pale_color(*look_.theme) : map_color(0.5);
+    picture.add(Cells{swatch, 1, 1, {color}});
+    if (kind == kHatched) draw_hatch(picture, swatch, 1, 1, {true}, look_.theme->base);
+    if (kind == kDotted) {
+      StabilityMap one;
+      one.nx = one.ny = 1;
+      one.cells.resize(1);
+      one.cells.front().doubtful = true;
+      draw_doubtful_dots(picture, one, swatch);
+    }
+    draw_text(picture, line_of(kind), {swatch.x1 + kSwatchToText, (swatch.y0 + swatch.y1 - kCapHeight * style_.text(size::kTick)) / 2});
+  }
+
+  const ChartLook& look_;
+  PlotStyle style_;
+  std::array<std::string, 3> words_;
 };
 
-MapKey key_of(const StabilityMap& data) {
-  const auto any = [&data](bool MapCell::*is) { return std::ranges::any_of(data.cells, [is](const MapCell& cell) { return cell.*is; }); };
-  return {any(&MapCell::failed) ? data.hatched : "", any(&MapCell::doubtful) ? data.dotted : ""};
-}
+// The bar stands beside the map. Its title ends with the page, in the row of the upward axis' title where both have room, else above; on small pages
+// the keys have a row there, too: a column of words would take the map's width.
+class MapLegend {
+ public:
+  MapLegend(const StabilityMap& data, const Axis& errors, const Rect& area, const ChartLook& look)
+      : errors_(errors), look_(look), style_(look.plot_style()), key_(data, look), area_(area) {
+    const TextStyle words{Face::label, style_.text(size::kAxis), look.theme->ink, Align::left};
+    title_ = lay_out_words(*look.fonts, errors.title, words);
+    const double of_axis = lay_out_words(*look.fonts, data.y.title, words).advance;
+    has_own_row_ = of_axis + size::kGutter + title_.advance > area.width();
+    keys_above_ = look.is_small && !key_.is_empty();
+    gap_ = look.is_small ? kSmallBarGap : kBarGap;
+  }
 
-// The bar's title above it, what is hatched or has dots below it.
-void draw_legend(Picture& picture, const PlotFrame& map, const Axis& errors, const MapKey& key, const ChartLook& look) {
-  const PlotStyle style = look.plot_style();
-  const double em = style.text(size::kTick), left = map.box.x1 + kBarGap;
-  const TextStyle text{Face::label, em, look.theme->ink, Align::left};
-  double bottom = map.box.y0;
-  const auto add = [&](const std::string& words, const auto& draw_swatch) {
-    if (words.empty()) return;
-    const Rect swatch = {left, bottom, left + kSwatch, bottom + kSwatch};
-    draw_swatch(swatch);
-    draw_text(picture, lay_out_text(*look.fonts, words, text),
-              {swatch.x1 + kSwatchToText, (swatch.y0 + swatch.y1 - kCapHeight * em) / 2});
-    bottom += kSwatch + em;
-  };
-  add(key.hatched, [&](const Rect& swatch) {
-    picture.add(Cells{swatch, 1, 1, {failed_color(*look.theme)}});
-    draw_hatch(picture, swatch, 1, 1, {true}, look.theme->base);
-  });
-  add(key.dotted, [&](const Rect& swatch) {
-    picture.add(Cells{swatch, 1, 1, {map_color(0.5)}});
-    StabilityMap one;
-    one.nx = one.ny = 1;
-    one.cells.resize(1);
-    one.cells.front().doubtful = true;
-    draw_doubtful_dots(picture, one, swatch);
-  });
-  draw_color_bar(picture, {left, bottom, left + kBarWidth, map.box.y1}, errors, look);
-  const TextStyle title{Face::label, style.text(size::kAxis), look.theme->ink, Align::left};
-  draw_text(picture, lay_out_words(*look.fonts, errors.title, title), {left, map.box.y1 + title_above_frame(look.plot_style())});
-}
+  double width() const { return gap_ + std::max(kBarWidth + kBarToLabel + widest_tick(errors_, style_), keys_above_ ? 0 : key_.widest()); }
+  double rows_above() const { return (has_own_row_ ? title_row() : 0) + (keys_above_ ? key_.pitch() : 0); }
 
-double legend_width(const Axis& errors, const StabilityMap& data, const ChartLook& look) {
-  const PlotStyle style = look.plot_style();
-  const TextStyle text{Face::label, style.text(size::kTick), look.theme->ink, Align::left};
-  const TextStyle title{Face::label, style.text(size::kAxis), look.theme->ink, Align::left};
-  return kBarGap + std::max({kBarWidth + kBarToLabel + widest_tick(errors, style),
-                             kSwatch + kSwatchToText + lay_out_text(*look.fonts, data.hatched, text).advance,
-                             key_of(data).dotted.empty() ? 0 : kSwatch + kSwatchToText + lay_out_text(*look.fonts, data.dotted, text).advance,
-                             lay_out_words(*look.fonts, errors.title, title).advance});
-}
+  void draw(Picture& picture, const PlotFrame& map) const {
+    const double left = map.box.x1 + gap_;
+    const double bottom = keys_above_ ? map.box.y0 : key_.draw_column(picture, left, map.box.y0);
+    draw_color_bar(picture, {left, bottom, left + kBarWidth, map.box.y1}, errors_, look_);
+    double base = map.box.y1 + title_above_frame(style_) + (has_own_row_ ? title_row() : 0);
+    draw_text(picture, title_, {area_.x1 - title_.advance, base});
+    if (keys_above_) key_.draw_row(picture, area_.x1, base + style_.text(size::kAxis) + kSwatchToText);
+  }
+
+ private:
+  double title_row() const { return kLinePitch * style_.text(size::kAxis); }
+
+  Axis errors_;
+  const ChartLook& look_;
+  PlotStyle style_;
+  MapKey key_;
+  Rect area_;
+  TextLine title_;
+  bool has_own_row_ = false, keys_above_ = false;
+  double gap_ = 0;
+};
 
 }  // namespace
 
@@ -274,8 +327,9 @@ Picture stability_map(const StabilityMap& data, const ChartLook& look) {
   const Rect area = draw_chart_page(picture, {data.title, data.subtitle, data.footer}, look);
   const PlotStyle style = look.plot_style();
   const Axis errors = error_axis(data);
-  const PlotFrame frame =
-      lay_out_plot({area.x0, area.y0, area.x1 - legend_width(errors, data, look), area.y1}, data.x, data.y, style);
+  const MapLegend legend(data, errors, area, look);
+  PlotFrame frame = lay_out_plot({area.x0, area.y0, area.x1 - legend.width(), area.y1 - legend.rows_above()}, data.x, data.y, style);
+  frame.box.x1 = area.x1 - legend.width();  // the last number may hang over below the bar
   require_room_for_axes(frame, look);
   draw_axes(picture, frame, style);
   picture.add(cells_of(data, errors, frame.box, *look.theme));
@@ -286,7 +340,7 @@ Picture stability_map(const StabilityMap& data, const ChartLook& look) {
   std::vector<Rect> taken;
   for (const MapBoundary& boundary : data.boundaries)
     draw_boundary_label(picture, frame, boundary, taken, look);
-  draw_legend(picture, frame, errors, key_of(data), look);
+  legend.draw(picture, frame);
   return as_page(picture, look);
 }
 

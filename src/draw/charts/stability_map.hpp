@@ -2,6 +2,7 @@
 // failed; of methods with the boundary that theory predicts drawn over it.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,6 @@ struct MapCell {
 struct MapBoundary {
   std::vector<Point> points;  // in the units of the axes
   std::string label;          // math notation: "omega h = 2"
-  bool is_rough = false;      // many cells are otherwise: it is thin and dashed
 };
 
 struct StabilityMap {
@@ -29,6 +29,8 @@ struct StabilityMap {
   std::vector<MapCell> cells;  // nx * ny, row by row from the lower left
   std::string error_title = "final error";
   bool is_linear = false;  // of numbers that are no errors: an even scale from the least to the largest, with their signs
+  double most = std::numeric_limits<double>::infinity();  // cells with a larger error, or one that is no number, are pale
+  std::string pale = "more";
   std::string hatched = "failed";  // what the cells are that have no number
   std::string dotted = "doubtful";  // what the cells are that have a dot
   std::vector<MapBoundary> boundaries;

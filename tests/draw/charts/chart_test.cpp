@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "core/error.hpp"
 #include "draw/chart_samples.hpp"
@@ -378,6 +379,28 @@ TEST(StabilityMap, ColoursCellsByErrorAndHatchesFailures) {
   StabilityMap stable = data;
   for (MapCell& cell : stable.cells) cell.failed = false;
   EXPECT_FALSE(says(stability_map(stable, look_of(light_theme())), "failed"));
+}
+
+// Beyond the end of the bar cells have none of its colours; on paper the map has three quarters of the width all the same.
+TEST(StabilityMap, WhatIsWorseThanAllColoursIsPale) {
+  StabilityMap data = sample_map(12, 8);
+  EXPECT_FALSE(says(stability_map(data, look_of(light_theme())), "> 100 %"));
+  data.most = 5e-4;
+  data.pale = "> 100 %";
+  data.error_title = "|energy error| / energy [%]";
+  std::size_t beyond = 0;
+  for (const MapCell& cell : data.cells) beyond += !cell.failed && cell.error > data.most;
+  ASSERT_GE(beyond, 5u);
+  for (const Theme* theme : {&light_theme(), &dark_theme()}) {
+    const Picture picture = stability_map(data, look_of(*theme));
+    EXPECT_TRUE(says(picture, "> 100 %"));
+    expect_words_on_page(picture);
+    const auto cells = all_of<Cells>(picture, [](const Cells& c) { return c.nx == 12; });
+    std::map<std::string, std::size_t> colours;
+    for (std::size_t i = 0; i < data.cells.size(); ++i)
+      if (!data.cells[i].failed && data.cells[i].error > data.most) ++colours[std::to_string(cells[0].colors[i].r) + " " + std::to_string(cells[0].colors[i].g)];
+    EXPECT_EQ(colours.size(), 1u) << "all alike";
+  }
 }
 
 TEST(StabilityMap, ItsColoursGetLighterStepByStep) {
