@@ -17,6 +17,7 @@ constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
 // What lies to the left of the least error that says something.
+constexpr const char* kGuidesWords = "thin lines: 1, 10, 100 times the cheapest run";
 constexpr const char* kRoundingWords = "under the growth of one rounding";
 constexpr const char* kReferenceWords = "under what the reference is known to";
 
@@ -232,7 +233,7 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   else if (data.floor > 0)
     add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + format_power(data.floor));
   if (data.reference_uncertainty > 0 && !data.is_least_of_reference()) add(of_reference());
-  add("dotted: 1, 10 and 100 times the cheapest run");
+  add(kGuidesWords);
   if (triangles) add("triangles: slope of an order");
   std::string others;
   for (const ChartCurve& curve : data.curves)
@@ -243,13 +244,13 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   return text;
 }
 
-// On small pages, a panel that is too narrow to be read has none beside it: evaluations, which every machine counts alike, stay.
+// On small pages, a panel that is too narrow to be read has none beside it: the first stays, which is what the title speaks of; the table has the others.
 std::span<const ChartCost> readable_panels(std::span<const ChartCost> panels, const std::vector<std::string>& methods, const ChartLook& look) {
   if (!look.is_small || panels.size() < 2) return panels;
   const Rect area{size::kMargin, size::kMargin, look.width() - size::kMargin, look.height - size::kMargin};
   const PlotStyle style = look.plot_style();
   const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, style));
-  return columns.panels.front().width() < kLeastPanel * style.text(size::kTick) ? panels.last(1) : panels;
+  return columns.panels.front().width() < kLeastPanel * style.text(size::kTick) ? panels.first(1) : panels;
 }
 
 }  // namespace
@@ -262,7 +263,7 @@ Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCos
   const std::span<const ChartCost> panels = readable_panels(all_panels, methods, look);
   const auto draw = [&](bool explains_triangles, bool& triangles) {
     Picture picture;
-    const ChartText text{data.title, data.subtitle, footer_of(data, explains_triangles)};
+    const ChartText text{.title = data.title, .subtitle = data.subtitle, .footer = footer_of(data, explains_triangles), .needed = kGuidesWords, .is_in_caption = true};
     const Rect area = draw_chart_page(picture, text, look);
     require_room_for_names(methods.size(), area, look);
     const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, look.plot_style()));

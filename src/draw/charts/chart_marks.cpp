@@ -15,9 +15,9 @@ namespace chainreel {
 namespace {
 
 constexpr int kGuideSamples = 160;
-constexpr double kGuideOpacity = 0.75;
+constexpr double kGuideOpacity = 0.75, kGuideLine = 0.0014;
 constexpr double kTriangleRise = 0.042, kTriangleOffset = 0.014;
-constexpr double kLongestRun = 0.11;      // H
+constexpr double kLeastRun = 0.037, kLongestRun = 0.11, kHighestRise = 0.20;  // H at the usual size of text: what is narrower shows no slope
 constexpr double kSlopeAgreement = 0.25;  // of 1/p: more than times scatter, less than to the next order
 constexpr double kRing = 0.0185, kRingLine = 0.0035;
 constexpr double kFailureShift = 0.020, kFailureSize = 1.25;
@@ -95,8 +95,8 @@ std::vector<Point> best_curve(const PlotFrame& frame, const WorkPrecision& data,
 
 void draw_guides(Picture& picture, const PlotFrame& frame, const std::vector<Point>& best,
                  const ChartLook& look) {
-  const CurveStyle style{look.theme->base.faded(kGuideOpacity), size::kPlotLineSecondary, Dash::dotted,
-                         Marker::none};
+  // Thin and solid: methods are wider, and dashed.
+  const CurveStyle style{look.theme->muted.faded(kGuideOpacity), kGuideLine, Dash::solid, Marker::none};
   for (const auto& [factor, words] : kGuides) {
     std::vector<Point> curve = best;
     for (Point& p : curve) p.y *= factor;
@@ -134,20 +134,22 @@ bool shows_order(const LogPoint& a, const LogPoint& b, int order) {
   return std::abs(slope - 1) < kSlopeAgreement;
 }
 
-// Beside the middle between two points of a curve; `side` is -1 below and left of it, 1 above and right.
-SlopeTriangle triangle_at(const PlotFrame& frame, const LogPoint& a, const LogPoint& b, int order,
-                          double side) {
+// Beside the middle between two points of a curve; `side` is -1 below and left of it, 1 above and right. None where one that is wide enough to be read
+// would be too high. `text`: times the usual size.
+std::optional<SlopeTriangle> triangle_at(const PlotFrame& frame, const LogPoint& a, const LogPoint& b, int order,
+                                         double side, double text) {
   const double per_decade_x = frame.box.width() / std::log10(frame.x.high / frame.x.low);
   const double per_decade_y = frame.box.height() / std::log10(frame.y.high / frame.y.low);
   double rise = kTriangleRise, run = rise * order * per_decade_x / per_decade_y;
-  const double shrink = std::min(1.0, kLongestRun / run);
-  rise *= shrink;
-  run *= shrink;
+  const double by = std::max(std::min(1.0, kLongestRun / run), text * kLeastRun / run);
+  rise *= by;
+  run *= by;
+  if (rise > text * kHighestRise) return {};
   const double length = std::sqrt(run * run + rise * rise);
   const Point away = (side * kTriangleOffset / length) * Point{rise, run};
   const Point middle = page_point(frame, {(a.error + b.error) / 2, (a.cost + b.cost) / 2});
-  return {middle + away + Point{side * run / 2, side * rise / 2}, -side * run, -side * rise,
-          std::to_string(order)};
+  return SlopeTriangle{middle + away + Point{side * run / 2, side * rise / 2}, -side * run, -side * rise,
+                       std::to_string(order)};
 }
 
 // The triangle's box with its number; `text` is the number's height.
@@ -183,10 +185,10 @@ bool draw_slopes(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
     for (std::size_t i = 0; i + 1 < points.size() && !drawn.contains(curve.order); ++i) {
       if (!shows_order(points[i], points[i + 1], curve.order)) continue;
       for (const double side : {-1.0, 1.0}) {
-        const SlopeTriangle triangle = triangle_at(frame, points[i], points[i + 1], curve.order, side);
-        if (!triangle_is_free(triangle, text, obstacles, int(k))) continue;
-        draw_slope_triangle(picture, triangle, style);
-        obstacles.boxes.push_back(box_of(triangle, text));
+        const auto triangle = triangle_at(frame, points[i], points[i + 1], curve.order, side, style.text(size::kTick) / size::kTick);
+        if (!triangle || !triangle_is_free(*triangle, text, obstacles, int(k))) continue;
+        draw_slope_triangle(picture, *triangle, style);
+        obstacles.boxes.push_back(box_of(*triangle, text));
         drawn.insert(curve.order);
         break;
       }

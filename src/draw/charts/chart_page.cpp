@@ -83,8 +83,10 @@ Rect draw_chart_page(Picture& picture, const ChartText& text, const ChartLook& l
     Picture measured;
     return draw_words(measured, shown, look).height() / look.height;
   };
-  if (look.is_small && height() < kMostlyChart) shown.footer = text.needed;
-  if (look.is_small && height() < kMostlyChart) shown.subtitle.clear();
+  const double least = text.is_in_caption ? kWholeChart : kMostlyChart;
+  if (look.is_small && height() < least) shown.footer = text.needed;
+  if (look.is_small && height() < least) shown.subtitle.clear();
+  if (look.is_small && text.is_in_caption && height() < least) shown.title.clear();
   const Rect area = draw_words(picture, shown, look);
   if (area.height() < kLeastHeight)
     throw Error(ExitCode::bad_input, look.is_small ? "the title leaves no room for the chart: take a higher page"

@@ -9,7 +9,7 @@
 
 namespace chainreel {
 
-inline constexpr double kMostlyChart = 0.6;
+inline constexpr double kMostlyChart = 0.6, kWholeChart = 0.8;
 inline constexpr double kLabelGap = 0.045;  // units of H, between the frame and the labels of its curves
 
 struct ChartText {
@@ -17,6 +17,7 @@ struct ChartText {
   std::string footer;  // small, in as many lines as it needs
   std::string needed{};   // what stands in the footer's place where that has no room
   std::string warning{};  // below the subtitle, in bold; never left out
+  bool is_in_caption = false;  // what the title says, too: on small pages it goes where the chart would have less than kWholeChart
 };
 
 struct ChartLook {

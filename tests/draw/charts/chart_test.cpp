@@ -273,6 +273,32 @@ TEST(Chart, LeastCostIsThatOfTheBestMethodAtEachError) {
   EXPECT_FALSE(least_cost(data, ChartCost::seconds, 1e-10));  // a failed run counts for nothing
 }
 
+// Forty pixels of a slide: what is narrower shows no slope.
+TEST(Chart, TrianglesAreWideEnoughToBeRead) {
+  const Color color = light_theme().muted.faded(0.12);
+  std::size_t seen = 0;
+  for (const double scale : {1.0, 1.5}) {
+    const Picture picture = work_precision_chart(sample_work_precision(), kBoth, look_of(light_theme(), scale));
+    for (const Polygon& one : all_of<Polygon>(picture, [&](const Polygon& p) { return p.paint.fill == color; })) {
+      EXPECT_GE(std::abs(one.corners[1].x - one.corners[0].x), 40.0 / 1080 - 1e-3);
+      ++seen;
+    }
+  }
+  EXPECT_GE(seen, 4u);
+}
+
+// A small page has the chart on three fifths of its height: what its caption says stands on large ones alone.
+TEST(Chart, OnPaperIsMostlyAPlot) {
+  ChartLook look = look_of(light_theme(), 1.9);
+  look.aspect = 4.0 / 3;
+  look.is_small = true;
+  const Picture picture = work_precision_chart(sample_work_precision(), kBoth, look);
+  EXPECT_FALSE(says(picture, "What accuracy costs"));
+  EXPECT_FALSE(says(picture, "Intel"));
+  EXPECT_TRUE(says(picture, "times the cheapest"));
+  EXPECT_TRUE(says(picture, "time per run"));
+}
+
 TEST(Chart, SlopesAreShownOnlyWhereACurveHasThem) {
   const auto triangles = [](const WorkPrecision& data) {
     const Color color = light_theme().muted.faded(0.12);
