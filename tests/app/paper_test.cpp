@@ -16,6 +16,7 @@
 namespace chainreel {
 namespace {
 
+using Words = std::vector<std::string>;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -257,8 +258,15 @@ TEST(OnPaper, SizesThatDoNotGoTogetherAreNamed) {
 // Fifteen names of 7 pt are higher than a column's chart: an error that says so, rather than names on one another.
 TEST(OnPaper, MoreMethodsThanHaveRoomAreRefused) {
   const TemporaryFolder folder;
-  const ProgramResult result = run_program({"energy", "assets/scenes/rr_free.yaml", "--until", "0.2s", "--step", "0.01", "--width-mm",
-                                            "84", "--height-mm", "40", "-o", folder.file("a.pdf")});
+  const Words energy{"energy", "assets/scenes/rr_free.yaml", "--until", "0.2s", "--step", "0.01", "--width-mm", "84", "--height-mm", "40", "-o", folder.file("a.pdf")};
+  const auto highlighting = [&](const std::string& names) {
+    Words words = energy;
+    words.insert(words.end(), {"--force", "--highlight", names});
+    return run_program(words);
+  };
+  EXPECT_EQ(run_program(energy).status, 0) << "grey ones have no names there";
+  EXPECT_EQ(highlighting("euler").status, 2);
+  const ProgramResult result = highlighting("explicit_euler,semi_implicit_euler,rk4,dop853,taylor,radau5,symplectic_euler,verlet,implicit_midpoint,gauss4,gauss6,rattle2,rattle4,rattle6,rattle8");
   EXPECT_EQ(result.status, 3) << result.err;
   EXPECT_THAT(result.err, HasSubstr("name fewer by --methods, or take a higher page"));
 }

@@ -284,18 +284,6 @@ Json json_of(const std::string& scene, const Measured& measured, const ChartOpti
   return json;
 }
 
-// Of methods that are in the chart; none where nothing is asked for.
-std::vector<std::string> highlighted(const ChartOptions& options, const std::vector<const Method*>& chosen) {
-  std::vector<std::string> names;
-  if (options.highlight.empty()) return names;
-  for (const Method* method : parse_methods(options.highlight, "--highlight")) {
-    if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
-      throw Error(ExitCode::usage, "--highlight: " + method->name + " is not among --methods");
-    names.push_back(method->name);
-  }
-  return names;
-}
-
 // Errors at the end say nothing of the way there where all comes to rest: what is damped forgets them.
 std::string doubt_of_end(Simulation& simulation) {
   constexpr int kInstants = 200;
@@ -344,7 +332,7 @@ void run_chart(const ChartOptions& options) {
   check_figure_size(options.figure);
   errors_to_reach(options.reach);  // before anything is measured
   const std::vector<const Method*> chosen = parse_methods(options.methods);
-  const std::vector<std::string> lit = highlighted(options, chosen);
+  const std::vector<std::string> lit = parse_highlight(options.highlight, chosen);
   PreparedScene prepared = load_motion(options.scene, overrides_of(options.common), options.panel, options.common.quiet);
   require_computed_run(prepared.scene, "chart");
   FigureFiles files(options.figure, "out/" + prepared.scene.name + "_chart.png", options.common.force);

@@ -18,6 +18,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "draw/charts/energy_chart.hpp"
+#include "draw/charts/lit_colours.hpp"
 #include "draw/page/house_style.hpp"
 #include "scene/run/title.hpp"
 #include "scene/text/read_scene.hpp"
@@ -31,6 +32,7 @@ struct EnergyOptions {
   std::string scene;
   std::string until;
   std::string methods;
+  std::string highlight;
   std::string step;
   double tolerance = 0;
   int panel = 0;  // from 1; 0: not given
@@ -244,6 +246,32 @@ EnergyChart chart_of(const EnergySubjects& all, double until, const std::vector<
   return chart;
 }
 
+// Of so many all are told apart; of more those that are asked for, else the most exact and what the scene itself takes.
+void light_curves_of(EnergyChart& chart, const std::vector<MethodRun>& runs, const std::vector<std::string>& asked, const PreparedScene& prepared) {
+  constexpr std::size_t kMostLit = 6;
+  if (asked.empty() && runs.size() <= kMostLit) return;
+  const auto is_better = [](const MethodRun& a, const MethodRun& b) {
+    return a.curve.trouble.empty() != b.curve.trouble.empty() ? a.curve.trouble.empty() : a.largest < b.largest;
+  };
+  const MethodRun* const best = &*std::ranges::min_element(runs, is_better);
+  const std::string own = prepared.choice ? prepared.choice->best.setting.method->name : prepared.scene.method;
+  std::vector<int*> looks;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string& name = runs[i].subject->setting.method->name;
+    EnergyCurve& curve = chart.curves[i];
+    curve.is_lit = asked.empty() ? &runs[i] == best || name == own : std::ranges::count(asked, name) > 0;
+    if (!curve.is_lit) continue;
+    if (curve.look < 0) curve.look = int(i);
+    looks.push_back(&curve.look);
+  }
+  tell_colours_apart(looks);
+  if (!asked.empty()) return;
+  const bool has_own = std::ranges::any_of(runs, [&](const MethodRun& run) { return run.subject->setting.method->name == own; });
+  chart.footer = best->subject->setting.method->name == own ? "in colour: the scene's method, which is the most exact"
+                 : has_own                                   ? "in colour: the most exact, and the scene's method"
+                                                             : "in colour: the most exact";
+}
+
 std::string status_of(const MethodRun& run) {
   return run.curve.trouble.empty() ? "finished" : run.curve.trouble;
 }
@@ -306,12 +334,16 @@ std::vector<MethodRun> run_all(const EnergySubjects& all, double until, bool qui
 void run_energy(const EnergyOptions& options) {
   check_figure_size(options.figure);
   const std::vector<const Method*> chosen = parse_methods(options.methods);
+  const std::vector<std::string> asked = parse_highlight(options.highlight, chosen);
   EnergySubjects all = subjects_of(options, chosen, settings_of(options));
   const Scene& scene = all.first().scene;
   const double until = options.until.empty() ? scene.duration : parse_positive_seconds(options.until, "--until", "1000s");
   for (PreparedScene& one : all.scenes) one.simulation.duration = until;
   FigureFiles files(options.figure, "out/" + scene.name + "_energy.png", options.common.force);
   require_all_possible(all);
+  for (const std::string& name : asked)
+    if (std::ranges::none_of(all.subjects, [&](const Subject& one) { return one.setting.method->name == name; }))
+      throw Error(ExitCode::bad_input, "--highlight: " + name + " does not take this scene", scene.place_of("method"));
   const std::vector<MethodRun> runs = run_all(all, until, options.common.quiet);
 
   warn_of_run(all.first(), "rank");
@@ -319,7 +351,9 @@ void run_energy(const EnergyOptions& options) {
   const Fonts fonts(families_of(scene));
   const ChartLook look = chart_look(options.figure, scene, fonts);
   const auto report = [&] { return json_of(options.scene, until, runs, all.left_out); };
-  const auto written = files.write([&] { return energy_chart(chart_of(all, until, runs, options.total), look); },
+  EnergyChart chart = chart_of(all, until, runs, options.total);
+  light_curves_of(chart, runs, asked, all.first());
+  const auto written = files.write([&] { return energy_chart(chart, look); },
                                    {csv_of(options.scene, runs), report}, fonts);
   tell_files(options.common, written, report, [&] { print_table(runs, all.left_out); });
 }
@@ -334,6 +368,7 @@ void add_energy_command(CommandLine& app) {
   command->add_flag("--total", options->total, "the picture shows the energies themselves, on plain axes, instead of their errors");
   command->add_option("--until", options->until, "how long, like 1000s (default the scene's duration)");
   command->add_option("--methods", options->methods, "rk4,taylor,.. (default all that take the scene, or what its panels say)");
+  command->add_option("--highlight", options->highlight, "taylor,rk4: these in colour, the rest grey (default of more than six the most exact and the scene's)");
   add_panel_option(*command, options->panel);
   command->add_option("--step", options->step, "of methods of fixed step, like 10ms (default the scene's, else 0.01)");
   command

@@ -255,6 +255,17 @@ std::vector<const Method*> parse_methods(const std::string& text, const std::str
   return chosen;
 }
 
+std::vector<std::string> parse_highlight(const std::string& text, const std::vector<const Method*>& chosen) {
+  std::vector<std::string> names;
+  if (text.empty()) return names;
+  for (const Method* method : parse_methods(text, "--highlight")) {
+    if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
+      throw Error(ExitCode::usage, "--highlight: " + method->name + " is not among --methods");
+    names.push_back(method->name);
+  }
+  return names;
+}
+
 std::string csv_facts(const std::string& scene) {
   return "# scene: " + scene + "\n# machine: " + processor_name() + "\n# system: " + system_name() +
          "\n# compiler: " + compiler_name() + "\n# revision: " + version_text() + "\n";

@@ -82,6 +82,8 @@ void remember_named_poses(ClipMemory& memory, const NamedPoses& poses);
 
 // "rk4,taylor": rows of the registry; "" is all of them. Throws Error (usage) naming the option.
 std::vector<const Method*> parse_methods(const std::string& text, const std::string& option = "--methods");
+// The names of `--highlight`, which must be of methods that were chosen; none where nothing is asked for.
+std::vector<std::string> parse_highlight(const std::string& text, const std::vector<const Method*>& chosen);
 
 // Lines that begin with #: machine, compiler, version, scene.
 std::string csv_facts(const std::string& scene);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "draw/charts/chart.hpp"
+#include "draw/charts/lit_colours.hpp"
 #include "draw/charts/obstacles.hpp"
 #include "picture/formula_words.hpp"
 #include "picture/point.hpp"
@@ -22,7 +23,6 @@ constexpr double kSlopeAgreement = 0.25;  // of 1/p: more than times scatter, le
 constexpr double kRing = 0.0185, kRingLine = 0.0035;
 constexpr double kFailureShift = 0.020, kFailureSize = 1.25;
 constexpr double kSameCost = 1e-9;    // decades
-constexpr double kLikeColours = 0.139;  // in Oklab: nearer ones are taken for one, as two greens
 
 struct LogPoint {
   double error, cost;
@@ -309,50 +309,6 @@ std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, doub
   return std::pow(10.0, least);
 }
 
-namespace {
-
-// Lightness and the two opponent colours of Oklab (B. Ottosson, A perceptual color space for image processing, 2020).
-std::array<double, 3> oklab(Color color) {
-  const auto linear = [](std::uint8_t byte) {
-    const double c = byte / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-  };
-  const double r = linear(color.r), g = linear(color.g), b = linear(color.b);
-  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s, 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
-          0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
-}
-
-double difference(int look, int other) {
-  const auto a = oklab(curve_style(look, light_theme()).color), b = oklab(curve_style(other, light_theme()).color);
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-// Curves in colour keep their looks where these differ; one that is like another before it takes that which is least like all
-// others.
-void tell_colours_apart(WorkPrecision& data) {
-  std::vector<int> taken;
-  const auto nearest = [&](int look) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const int other : taken) least = std::min(least, difference(look, other));
-    return least;
-  };
-  for (std::size_t k = 0; k < data.curves.size(); ++k) {
-    ChartCurve& curve = data.curves[k];
-    if (!curve.is_lit) continue;
-    int look = curve.look < 0 ? int(k) : curve.look;
-    if (nearest(look) < kLikeColours)
-      for (int other = 0; other < kCurveLooks; ++other)
-        if (nearest(other) > nearest(look)) look = other;
-    curve.look = look;
-    taken.push_back(look);
-  }
-}
-
-}  // namespace
-
 // So near to what rounding or the reference leaves, who comes nearest is chance.
 constexpr double kAboveLeast = 30;
 
@@ -365,7 +321,14 @@ void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const 
       for (const LogPoint& point : good_points(curve, cost))
         curve.is_lit |= !(std::pow(10, point.error) < kAboveLeast * data.least_error()) && std::pow(10, point.error) <= data.largest_answer && point.cost <= least_log_cost(data, cost, point.error) + kSameCost;
   }
-  tell_colours_apart(data);
+  std::vector<int*> looks;
+  for (std::size_t k = 0; k < data.curves.size(); ++k) {
+    ChartCurve& curve = data.curves[k];
+    if (!curve.is_lit) continue;
+    if (curve.look < 0) curve.look = int(k);
+    looks.push_back(&curve.look);
+  }
+  tell_colours_apart(looks);
 }
 
 bool draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,

@@ -21,7 +21,21 @@ constexpr const char* kNoteOfEnergies = "kinetic and potential energy, and that 
 
 CurveStyle style_of(const EnergyChart& data, std::size_t curve, const ChartLook& look) {
   const int index = data.curves[curve].look;
-  return curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
+  CurveStyle style = curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
+  if (data.curves[curve].is_lit) return style;
+  style.color = look.theme->base;
+  style.width = size::kPlotLineSecondary;
+  style.marker = Marker::none;
+  return style;
+}
+
+// Those in colour over the others.
+std::vector<std::size_t> quiet_first_of(const EnergyChart& data) {
+  std::vector<std::size_t> order;
+  for (const bool lit : {false, true})
+    for (std::size_t i = 0; i < data.curves.size(); ++i)
+      if (data.curves[i].is_lit == lit) order.push_back(i);
+  return order;
 }
 
 std::size_t samples_of(const EnergyCurve& curve) {
@@ -153,15 +167,19 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
   Picture picture;
   const std::string note = data.shows_energy ? kNoteOfEnergies : kNote;
   const std::string footer = data.footer.empty() ? note : data.footer + "; " + note;
-  const Rect area = draw_chart_page(picture, {data.title, data.subtitle, footer}, look);
-  require_room_for_names(data.curves.size(), area, look);
+  // On small pages grey curves have no names.
+  const auto is_named = [&](const EnergyCurve& curve) { return curve.is_lit || !look.is_small; };
+  const auto names = std::size_t(std::ranges::count_if(data.curves, is_named));
+  const std::string needed = names < data.curves.size() ? "grey: the other methods" : "";
+  const Rect area = draw_chart_page(picture, {.title = data.title, .subtitle = data.subtitle, .footer = footer, .needed = needed, .is_in_caption = true}, look);
+  require_room_for_names(names, area, look);
   const PlotStyle style = look.plot_style();
   const double last = last_time(data), first = first_time(data, last);
   std::vector<std::vector<Point>> curves;
   std::vector<std::string> texts;
   for (const EnergyCurve& curve : data.curves) {
     curves.push_back(data.shows_energy ? energies_of(curve) : crests(curve, first, kColumns));
-    texts.push_back(label_of(curve));
+    texts.push_back(is_named(curve) ? label_of(curve) : "");
   }
   const double labels = end_labels_width(texts, style);
   const PlotFrame frame = lay_out_plot({area.x0, area.y0, area.x1 - labels - kLabelGap, area.y1}, time_axis(data, first, last),
@@ -170,11 +188,11 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
   draw_axes(picture, frame, style);
   std::vector<EndLabel> ends;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (curves[i].empty()) continue;
+    if (curves[i].empty() || texts[i].empty()) continue;
     ends.push_back({end_of(frame, curves[i]), texts[i], style_of(data, i, look)});
   }
   draw_end_labels(picture, frame, ends, frame.box.x1 + kLabelGap, style);
-  for (std::size_t i = 0; i < curves.size(); ++i) {
+  for (const std::size_t i : quiet_first_of(data)) {
     CurveStyle curve = style_of(data, i, look);
     const Marker marker = curve.marker;
     curve.marker = Marker::none;

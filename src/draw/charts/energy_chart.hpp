@@ -14,6 +14,7 @@ struct EnergyCurve {
   std::string trouble;  // why the run ended early, in a word or two: "diverged"; empty for a whole run
   int look = -1;        // of curve_style; -1: the place in the list
   std::string title{};  // what the picture calls it; "": `method`
+  bool is_lit = true;  // in colour, with markers; else a grey line, so that the others stand out
   std::vector<double> energy{};  // kinetic, potential and that of springs at these t, J
 };
 

@@ -344,6 +344,22 @@ TEST(EnergyChart, CrestsAreTheLargestOfEachPart) {
   EXPECT_TRUE(crests({"none", {}, {}, "", -1}, 1, 20).empty());
 }
 
+TEST(EnergyChart, OthersThanThoseInColourAreGreyAndHaveTheirNamesWhereThereIsRoom) {
+  EnergyChart data = sample_energy();
+  const auto greys = [&](const Picture& picture) {
+    return all_of<Trail>(picture, [](const Trail& one) { return one.color == light_theme().base; }).size();
+  };
+  EXPECT_EQ(greys(energy_chart(data, look_of(light_theme()))), 0u);
+  for (EnergyCurve& curve : data.curves) curve.is_lit = curve.method == "taylor";
+  const Picture picture = energy_chart(data, look_of(light_theme()));
+  EXPECT_GT(greys(picture), 0u);
+  EXPECT_TRUE(says(picture, "verlet"));
+  ChartLook small = look_of(light_theme(), 1.5);
+  small.is_small = true;
+  EXPECT_FALSE(says(energy_chart(data, small), "verlet"));
+  EXPECT_TRUE(says(energy_chart(data, small), "taylor"));
+}
+
 TEST(EnergyChart, SaysWhichRunsEndedEarly) {
   const Picture picture = energy_chart(sample_energy(), look_of(light_theme()));
   EXPECT_TRUE(says(picture, "explicit_euler (diverged)"));
