@@ -31,7 +31,7 @@ constexpr int kMostLabels = 4;         // of weights
 constexpr int kMostTorqueLabels = 6;
 constexpr double kArcOfLink = 0.32;    // an arc's radius at most, of the shortest link
 constexpr double kSmallestArc = 0.5;   // of the size that arcs have elsewhere
-constexpr double kAlongLink = 0.1;     // cosine of the largest angle from a force to the link that it pushes
+constexpr double kAlongPushed = 0.1;   // cosine of the largest angle from a force to the link that it pushes
 constexpr double kLabelledArc = 0.53;  // between smaller ones there is no room for words
 
 // The vectors of a motion at sample k, after compute_kinematics there.
@@ -298,7 +298,7 @@ ReactionRun reactions_of(const StagedRun& motion) {
     const Workspace& ws = motion.pose_at(k);
     for (const Reaction& one : run.at[std::size_t(k)]) {
       const Vector3d to_joint = ws.X_WB[std::size_t(chain.frames[std::size_t(one.frame)].body)].translation() - frame_position(chain, ws, one.frame);
-      const bool along = one.rows.size() == 1 && one.force.dot(to_joint) > kAlongLink * one.force.norm() * to_joint.norm();
+      const bool along = one.rows.size() == 1 && one.force.dot(to_joint) > kAlongPushed * one.force.norm() * to_joint.norm();
       pushes.emplace(one.frame, true).first->second &= along || one.force.isZero();
     }
   }

@@ -18,6 +18,7 @@ constexpr double kNumberGaps[] = {0.010, 0.018};        // units of H, beyond th
 constexpr double kBesideGaps[] = {0.010, 0.018, 0.03};    // ... beside it, of one that is short
 constexpr double kTieOff = 0.004, kShortTie = 0.008;      // lines of figures end so far from that end, and are no shorter
 constexpr double kTiedNumberGaps[] = {0.05, 0.09, 0.13, 0.18, 0.25};  // ... of figures, with a line from there
+constexpr double kTipDot = 0.0055, kTipRim = 0.0015;  // units of H: radius, and the line around it
 constexpr double kFarNumberGaps[] = {0.05, 0.09, 0.13, 0.18, 0.25, 0.33, 0.42};  // ... where a robot is in the way
 constexpr std::size_t kFarOfFilms = 3;  // of these: in films words stay near
 constexpr double kLeastAxis = 0.008;                    // ... seen from its end, a shorter one has no room for a number
@@ -332,7 +333,7 @@ void add_places(MarkWord& word, Point center, Point v, std::span<const double> e
       for (const Point tip : {end, center - v})
         for (const Rect& place : places_about(word.line, tip, gap, unit(tip - center)))
           if (is_within(place, style.scene) && (is_figure || tip.x == end.x)) word.places.push_back(place);
-    word.tie = is_figure ? Tie{end, kTieOff, style.theme->ellipse, center - v, kShortTie} : Tie{end, kNumberGaps[0], style.theme->ellipse, center - v};
+    word.tie = Tie{end, kTieOff, style.theme->ellipse, center - v, kShortTie};
   }
   if (!has_lines) return;
   for (const double share : {0.7, 0.4})
@@ -370,6 +371,10 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
     if (style.unnamed != nullptr) ++*style.unnamed;
     return;
   }
+  // In space the ends of axes are not seen as such: each has a dot, to which its number leads.
+  if (style.hides)
+    for (const Point tip : {center + v, center - v})
+      picture.add(Ellipse{tip, {kTipDot, 0}, {0, kTipDot}, {style.theme->ellipse, style.theme->background, kTipRim}}, clip);
   MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
   if (strength > 0 && has_one_place(style))
     for (const double side : {1.0, -1.0})
