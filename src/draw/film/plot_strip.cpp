@@ -229,8 +229,9 @@ void PlotStrip::draw_note(Picture& picture) const {
   if (data_.note.empty()) return;
   const TextLine title = lay_out_words(*style_.fonts, data_.title, {Face::label, style_.text(size::kAxis), style_.theme->ink});
   const TextLine note = lay_out_words(*style_.fonts, data_.note, {Face::label, style_.text(size::kTick), style_.theme->muted, Align::right});
-  const double from = area_.x0 + title.advance + kNoteGap;
-  if (frame_.box.x1 - note.advance >= from) draw_text(picture, note, {frame_.box.x1, frame_.box.y1 + title_above_frame(style_)});
+  // Over the names of curves, too, where the frame is narrow.
+  const double right = std::max(frame_.box.x1, area_.x0 + title.advance + kNoteGap + note.advance);
+  if (right <= area_.x1 + kSameEnd) draw_text(picture, note, {right, frame_.box.y1 + title_above_frame(style_)});
 }
 
 void PlotStrip::draw_frame(Picture& picture, double t) const {
