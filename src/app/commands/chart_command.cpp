@@ -183,7 +183,7 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
           " s, at the end of the run; way_error, of way_q and way_qd: the largest at " + std::to_string(measured.reference.run.t.size()) +
           " instants along the run, of fixed steps at those at which one ends, and at all where q is off by a tenth of the motion; energy_error: the largest at the end of any step, and within steps where it is a tenth of the motion's\n";
   text +=
-      "method,order,step [s],tolerance,runs,least_seconds [s],steps,evaluations,error,error_q,error_qd,"
+      "method,order,step [s],tolerance,runs,median_seconds [s],steps,evaluations,error,error_q,error_qd,"
       "way_error,way_q,way_qd,energy_error [J],status\n";
   for (const Ladder& ladder : measured.ladders)
     for (const Rung& rung : ladder.rungs) {
@@ -268,7 +268,7 @@ Json json_of(const std::string& scene, const Measured& measured, const ChartOpti
                        {"step", rung.setting.step > 0 ? Json(rung.setting.step) : Json(nullptr)},
                        {"tolerance", rung.setting.options.tolerance > 0 ? Json(rung.setting.options.tolerance) : Json(nullptr)},
                        {"runs", rung.runs},
-                       {"least_seconds", rung.seconds},
+                       {"median_seconds", rung.seconds},
                        {"steps", rung.steps},
                        {"evaluations", rung.evaluations},
                        {"error", rung.final.size},
@@ -372,7 +372,7 @@ void add_chart_command(CommandLine& app) {
   command->add_option("--highlight", options->highlight,
                       "taylor,rk4: these in colour, the rest grey (default the cheapest at some error, and auto's)");
   command->add_option("--reach", options->reach, "1e-4,..: errors that the printed table is for (default 1e-3,1e-6,1e-9)");
-  command->add_option("--runs", options->runs, "of each rung; the least time counts").range(1, 1000);
+  command->add_option("--runs", options->runs, "of each rung; the median counts").range(1, 1000);
   command->add_option("--longest", options->longest, "finer rungs whose runs would take longer by the table of costs are left out; one may take twice as long: 100ms")
       .show_default();
   command->add_option("--error", options->error, "what the chart judges: way (the largest of q and qd along the run, the default), final (at its end) or energy (the largest along the run, J)")

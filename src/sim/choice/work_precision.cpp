@@ -92,6 +92,11 @@ void find_errors(const Trajectory& run, const ReferenceRun& reference, Rung& run
   }
 }
 
+double median(std::vector<double>& values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
 // Inside of steps, at which a run of long ones may be another motion though its energy is right at all of their ends: Verlet at omega h = 2 jumps
 // from one turning point to the other.
 std::vector<double> instants_within_steps(const MethodSetting& setting, double duration) {
@@ -193,7 +198,7 @@ Rung measure(Simulation& simulation, const MethodSetting& setting, const Referen
     if (trajectory.status != RunStatus::finished) break;  // nobody asks how fast it failed
   }
   rung.runs = int(seconds.size());
-  rung.seconds = *std::ranges::min_element(seconds);
+  rung.seconds = median(seconds);
   return rung;
 }
 
@@ -201,7 +206,7 @@ namespace {
 
 // An evaluation takes about as long on all rungs of a ladder: where it takes longer than on both rungs beside it, the machine did something else.
 void time_outliers_again(Simulation& simulation, Ladder& ladder, const LadderOptions& options, const StopRequest& stop) {
-  constexpr double kOutlier = 1.2;  // scatter of the least of five runs is some per cent
+  constexpr double kOutlier = 1.2;  // scatter of medians of five is some per cent
   constexpr int kTimes = 3;
   auto& rungs = ladder.rungs;
   const auto per_evaluation = [&](std::size_t k) { return rungs[k].seconds / double(std::max(1L, rungs[k].evaluations)); };
@@ -213,10 +218,9 @@ void time_outliers_again(Simulation& simulation, Ladder& ladder, const LadderOpt
     for (std::size_t k = 1; k + 1 < rungs.size(); ++k) {
       if (!is_outlier(k) || (stop && stop(0))) continue;
       apply(rungs[k].setting, simulation);
-      for (int run = 0; run < options.runs; ++run) {
-        rungs[k].seconds = std::min(rungs[k].seconds, time_run(simulation, end, stop));
-        ++rungs[k].runs;
-      }
+      std::vector<double> seconds;
+      for (int run = 0; run < options.runs; ++run) seconds.push_back(time_run(simulation, end, stop));
+      rungs[k].seconds = std::min(rungs[k].seconds, median(seconds));
     }
 }
 

@@ -41,7 +41,7 @@ struct Rung {
   StateError way;           // the largest at the reference's instants, of fixed steps at those at which one ends, and at all where q is off by a tenth of the motion
   StateError final;         // at the end
   double energy_error = 0;  // J, the largest at the end of any step, and within steps where it is a tenth of the motion's
-  double seconds = 0;       // the least of the runs, nothing sampled but the end: whatever else the machine does adds to it
+  double seconds = 0;       // median of the runs, nothing sampled but the end
   int runs = 0;
   long steps = 0, evaluations = 0;
   RunStatus status = RunStatus::finished;

@@ -25,7 +25,7 @@ function element(name, properties, ...children) {
 }
 
 // A browser's own controls lie over the film's lower edge, where its words are: these stand below it. The picture that stands
-// for a film shows until somebody plays it, with a button in its corner; so long its instant is told.
+// for a film shows until somebody plays it, with a small button in its middle; so long its instant is told.
 for (const video of document.querySelectorAll('video')) {
   const title = document.getElementById(video.getAttribute('aria-labelledby')).textContent;
   const film = video.parentElement;
