@@ -17,7 +17,7 @@ namespace chainreel {
 // One run: a rung of the ladder of steps or tolerances of a method.
 struct ChartPoint {
   double error = 0;        // of the final state against the reference
-  double seconds = 0;      // the least of the repetitions
+  double seconds = 0;      // median of the repetitions
   double evaluations = 0;  // of the dynamics
   bool failed = false;     // diverged or gave up: its cost is shown, its error is not
   std::string label;       // "h = 1 ms" or "rk4, step 0.001 s"; drawn at the ends of curves in colour
