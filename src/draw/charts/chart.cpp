@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "draw/charts/lit_colours.hpp"
 #include "picture/formula_words.hpp"
 
 namespace chainreel {
@@ -130,17 +131,9 @@ void draw_floor_words(Picture& picture, const PlotFrame& frame, const WorkPrecis
                  width);
 }
 
-std::vector<std::size_t> quiet_first(const WorkPrecision& data) {
-  std::vector<std::size_t> order;
-  for (const bool lit : {false, true})
-    for (std::size_t i = 0; i < data.curves.size(); ++i)
-      if (data.curves[i].is_lit == lit) order.push_back(i);
-  return order;
-}
-
 void draw_curves(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
                  const ChartLook& look) {
-  for (const std::size_t i : quiet_first(data)) {
+  for (const std::size_t i : quiet_first(data.curves)) {
     const CurveStyle style = style_of(data, i, look);
     std::vector<Point> points;
     for (const ChartPoint& point : data.curves[i].points) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/charts/lit_colours.hpp"
 #include "picture/formula_words.hpp"
 
 namespace chainreel {
@@ -27,15 +28,6 @@ CurveStyle style_of(const EnergyChart& data, std::size_t curve, const ChartLook&
   style.width = size::kPlotLineSecondary;
   style.marker = Marker::none;
   return style;
-}
-
-// Those in colour over the others.
-std::vector<std::size_t> quiet_first_of(const EnergyChart& data) {
-  std::vector<std::size_t> order;
-  for (const bool lit : {false, true})
-    for (std::size_t i = 0; i < data.curves.size(); ++i)
-      if (data.curves[i].is_lit == lit) order.push_back(i);
-  return order;
 }
 
 std::size_t samples_of(const EnergyCurve& curve) {
@@ -192,7 +184,7 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
     ends.push_back({end_of(frame, curves[i]), texts[i], style_of(data, i, look)});
   }
   draw_end_labels(picture, frame, ends, frame.box.x1 + kLabelGap, style);
-  for (const std::size_t i : quiet_first_of(data)) {
+  for (const std::size_t i : quiet_first(data.curves)) {
     CurveStyle curve = style_of(data, i, look);
     const Marker marker = curve.marker;
     curve.marker = Marker::none;
