@@ -153,11 +153,16 @@ Point Panel::far_point(int k) const {
   return camera().project(farthest_place(k));
 }
 
-// How far off it is meanwhile, where that is far beyond the picture: ", 3\u00D710\u2075 m away".
+// How far off it has been by then, where that is far beyond the picture: ", up to 3\u00D710\u2075 m away". On its way from one side
+// to the other it passes near.
 std::string Panel::away_note(int k) const {
   constexpr double kFar = 10;  // times the picture's height
-  const double away = farthest_place(k).norm(), height = area().height() / camera().scale;
-  return std::isfinite(away) && away > kFar * height ? ", " + format_power(away) + " m away" : "";
+  for (int i = last_ + 1 + int(farthest_by_.size()); i <= k; ++i) {
+    const double there = farthest_place(i).norm(), before = farthest_by_.empty() ? 0 : farthest_by_.back();
+    farthest_by_.push_back(there > before || std::isnan(there) ? there : before);
+  }
+  const double away = farthest_by_[std::size_t(k - last_ - 1)], height = area().height() / camera().scale;
+  return std::isfinite(away) && away > kFar * height ? ", up to " + format_power(away) + " m away" : "";
 }
 
 }  // namespace chainreel

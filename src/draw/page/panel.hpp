@@ -90,6 +90,7 @@ class Panel {
   ChainLook look_;
   TipPath tip_;
   int last_;
+  mutable std::vector<double> farthest_by_;  // m: of the samples behind last_, as far as they were asked for
   bool left_ = false;  // the chain left the picture before the run ended
 };
 
