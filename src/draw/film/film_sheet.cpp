@@ -59,7 +59,12 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
     // Of higher order curves bend as the motion does, and steps are not seen.
     if (simulation->method && simulation->method->order == 1 && simulation->step >= kSeenStep * run.t.back()) strip.step = simulation->step;
     const Trajectory& whole = motion.trajectory();
-    if (whole.energy_at_steps && doubt_of_energy(*simulation, whole, audit_of(*simulation, whole), {})) strip.energy_off = whole.energy_at_steps->signed_error;
+    if (whole.energy_at_steps && !motion.is_wild()) {
+      // At frames, too: that between the ends of long steps is what the curve shows.
+      const Audit audit = audit_of(*simulation, whole);
+      if (audit.largest_error > kDoubtfulEnergy * audit.energy_moved || doubt_of_energy(*simulation, whole, audit, {}))
+        strip.energy_off = std::max(audit.largest_error, whole.energy_at_steps->largest_error);
+    }
   }
   if (story.empty() && motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.curve_samples());
   strip.times.assign(strip.plots.size(), std::vector<double>(run.t.begin(), run.t.begin() + motion.curve_samples()));

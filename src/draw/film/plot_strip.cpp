@@ -245,13 +245,13 @@ void PlotStrip::draw_frame(Picture& picture, double t) const {
 
 namespace {
 
-// Of plot i, of which the first says what holds for all.
+// Of plot i, of which the first says what holds for all; of several runs until when all of them are accurate.
 void add_doubts(const StripRun& run, std::size_t i, StripData& data) {
-  if (run.accurate_until < data.end) {
+  if (run.accurate_until < std::min(data.end, data.accurate_until)) {
     data.accurate_until = run.accurate_until;
     if (i == 0) data.note = "accurate until " + format_significant(run.accurate_until, 3) + " s";
-  } else if (run.energy_off != 0 && run.plots[i].quantity == PlotQuantity::energy) {
-    data.note = "total off by " + format_significant(std::abs(run.energy_off), 2) + " J";
+  } else if (!data.of_runs && run.energy_off > 0 && run.plots[i].quantity == PlotQuantity::energy) {
+    data.note = "total off by " + format_significant(run.energy_off, 2) + " J";
   }
 }
 
@@ -266,7 +266,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     if (i >= run.plots.size()) continue;
     const PlotCurves& plot = run.plots[i];
     data.title = title_with_symbol(plot);
-    if (!data.of_runs) add_doubts(run, i, data);
+    add_doubts(run, i, data);
     data.angles = plot.angles;
     // A comparison shows the sum of energies alone.
     const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;

@@ -134,9 +134,8 @@ class VectorLayer : public Layer {
     return {full, stage.share_of_lengths()};
   }
 
-  // Forces within a decade of the largest that the page shows have its scale: what is larger is longer, whatever layer draws it.
+  // All forces have the scale of the largest that the page shows: what is larger is longer, whatever layer draws it.
   static VectorScales shared(VectorScales own, const Stage& stage, const char* name) {
-    constexpr double kSeenBeside = 0.1;
     own.shrink *= stage.share_of_arrows(share_name(name));
     const double largest = largest_force(own);
     if (!(largest > 0)) return own;
@@ -144,7 +143,7 @@ class VectorLayer : public Layer {
     for (const auto& [layer, source] : force_sources())
       if (std::string_view(layer) != name && stage.shows(layer)) most = std::max(most, largest_force(scales_of(stage, source(stage))));
     for (const VectorKind kind : kForces)
-      if (double& full = own.full[std::size_t(kind)]; full >= kSeenBeside * most) full = most;
+      if (double& full = own.full[std::size_t(kind)]; full > 0) full = most;
     return own;
   }
   static double largest_force(const VectorScales& scales) {

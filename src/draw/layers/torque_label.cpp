@@ -243,7 +243,8 @@ std::string only_entry(const Chain& chain, const std::vector<std::string>& entri
   const auto is_zero = [](const std::string& entry) { return parse_number(entry) == 0.0; };
   if (entries.size() < 2 || std::ranges::count_if(entries, is_zero) + 1 != std::ptrdiff_t(entries.size())) return "";
   const auto place = std::ranges::find_if_not(entries, is_zero) - entries.begin();
-  for (const Body& body : chain.bodies) {
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Body& body = chain.bodies[b];
     if (body.joint.v_index != int(place) || (body.joint.kind != JointKind::revolute && body.joint.kind != JointKind::prismatic)) continue;
     const std::string& entry = entries[std::size_t(place)];
     return "tau_" + std::to_string(place + 1) + " = " + (parse_number(entry) ? entry : "(" + entry + ")") + (body.joint.kind == JointKind::revolute ? " N m" : " N");

@@ -299,14 +299,17 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
   if (vector.kind == VectorKind::torque) return draw_torque(picture, vector, camera, marks, clip, labels);
   const Straight arrow = straight(vector, camera, marks);
-  if (norm(arrow.v) < size::kShortestArrow) return;
+  // The number of a push is seen also where others are so large that it has no arrow.
+  const bool has_number = vector.kind == VectorKind::push;
+  const bool is_seen = norm(arrow.v) >= size::kShortestArrow;
+  if (!is_seen && !(has_number && norm(arrow.v) > 0)) return;
   const Point tail = place + arrow.shift;
-  draw_arrow(picture, tail, arrow.v,
+  if (is_seen) draw_arrow(picture, tail, arrow.v,
              {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines,
               theme_->background},
              clip);
   // One beside hardly more than a head names what nobody sees.
-  if (vector.label.empty() || norm(arrow.v) < kLeastLabelled * marks) return;
+  if (vector.label.empty() || (!has_number && norm(arrow.v) < kLeastLabelled * marks)) return;
   const TextLine& text = label(vector, marks, arrow.broken > 0);
   labels.add({word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)});
 }

@@ -91,7 +91,7 @@ TEST(PlotStrip, MarksLongStepsAndWhatIsNotAccurate) {
   run.step = 0;
   EXPECT_EQ(zones(drawn(run)), 0u);
   EXPECT_EQ(test::words_of(drawn(run)).find("until"), std::string::npos);
-  run.energy_off = -0.567;
+  run.energy_off = 0.567;
   EXPECT_EQ(test::words_of(drawn(run)).find("off"), std::string::npos) << "a plot of something else";
   EXPECT_NE(test::words_of(drawn(run, PlotQuantity::energy)).find("total off by 0.57 J"), std::string::npos);
   run.accurate_until = 2.6584;

@@ -445,6 +445,16 @@ TEST(Forces, AreAtOneScale) {
   ASSERT_GT(weight, 0);
   EXPECT_LT(push, 0.6 * weight) << "half of it, the heads apart";
   EXPECT_NEAR(longest(picture, light().torque, true), longest(picture, light().force, true), 1e-12) << "one scale is printed";
+  // However much smaller one is: of three kinds the smallest had a scale of its own, and was longer than the second.
+  const Cause apart("rr_free", {"draw=[+gravity, -g]", "push=[{frame: gripper, force: [0, 400, 0], from: 0, until: 1}, {frame: link1, force: [40, 0, 0], from: 0, until: 1}]"}, 0.2);
+  const Picture all = apart.film().still(0);
+  std::vector<double> lengths;
+  for (const Capsule& shaft : test::all_of<Capsule>(all, [&](const Capsule& c) { return c.paint.fill == light().force && c.a.y > 0.12; }))
+    lengths.push_back(test::distance(shaft.a, shaft.b));
+  ASSERT_FALSE(lengths.empty());
+  EXPECT_GT(std::ranges::max(lengths), 0.05) << "400 N";
+  std::ranges::sort(lengths, std::greater());
+  if (lengths.size() > 1) EXPECT_LT(lengths[1], 0.2 * lengths[0]) << "40 N and weights of 10 N";
 }
 
 // Whatever pulls there, no word lies on the pose that feedback follows.

@@ -46,8 +46,11 @@ TEST(TorqueLabel, NamesTheOneThatActsWithItsUnit) {
   EXPECT_EQ(label("slider_crank", {"8 - qd1", "0", "0"}), "tau_1 = (8 - qd1) N m");
   EXPECT_EQ(label("slider_crank", {"0", "0", "5"}), "tau_3 = 5 N");
   EXPECT_EQ(label("slider_crank", {"8 - qd1", "0", "5"}), "tau = (8 - qd1, 0, 5)");
+  Chain slider_first = test::model("rr");
+  slider_first.bodies[1].joint.kind = JointKind::prismatic;
   std::vector<TorqueEntry> torque(2);
   torque[0].text = "10", torque[1].text = "0";
+  EXPECT_EQ(torque_notations(slider_first, torque).front(), "tau_1 = 10 N");
   EXPECT_EQ(torque_notations(test::model("rr"), torque), (std::vector<std::string>{"tau = (10, 0) N m", "tau_1 = 10 N m", "tau = tau(t, q, qd)"}));
 }
 
