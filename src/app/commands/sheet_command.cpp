@@ -145,6 +145,8 @@ struct Page {
   // The title of the only scene stands above its instants.
   bool is_of_one() const { return options.scenes.size() == 1 && count > 1; }
   void lay_out();
+  // On a page of a given height.
+  bool chooses_columns() const { return options.columns == 0 && !has_own_height(); }
   void take(const Page& other) { look = other.look, size = other.size, grid = other.grid; }
   void set_title(const std::string& title) {
     look.title = title;
@@ -262,9 +264,33 @@ std::vector<ContactCell> cells_of(const SheetOptions& options, Page& page, Json&
   return all;
 }
 
+constexpr int kMostLines = 5;  // of a title below its picture
+
+// The number of columns of the largest pictures below which all titles stand whole; false where there is none.
+bool choose_columns(Page& page, const std::vector<ContactCell>& cells) {
+  constexpr int kMostAcross = 12;
+  const Page before = page;
+  std::optional<Page> best;
+  for (int across = 1; across <= std::min(int(cells.size()), kMostAcross); ++across)
+    for (int lines = 1; lines <= kMostLines; ++lines) {
+      page.look.columns = across;
+      page.look.title_lines = lines;
+      try {
+        page.grid = contact_grid(int(cells.size()), page.look);
+      } catch (const Error&) {
+        break;  // too low for its words
+      }
+      if (title_lines_of(page.grid, cells, page.look) > lines) continue;
+      if (!best || page.grid.pictures[0].width() > best->grid.pictures[0].width()) best.emplace(page);
+      break;
+    }
+  page.take(best ? *best : before);
+  return best.has_value();
+}
+
 // Below each picture its title stands whole, on as many lines as the longest one takes, where that leaves pictures.
 void give_room_to_titles(Page& page, const std::vector<ContactCell>& cells) {
-  constexpr int kMostLines = 5;
+  if (page.chooses_columns() && choose_columns(page, cells)) return;
   while (page.grid.title_lines < kMostLines && title_lines_of(page.grid, cells, page.look) > page.grid.title_lines) {
     const Page before = page;
     page.look.title_lines = page.grid.title_lines + 1;
