@@ -1,4 +1,4 @@
-// Vectors over a chain: torques as arcs, forces and velocities as arrows. Each kind has one scale a clip, which no single
+// Vectors over a chain: torques as arcs, forces and velocities as arrows. Each has one scale a clip, all forces the same, which no single
 // peak decides on: the magnitude below which 95 % of those lie that the clip has measures 0.20 H, or turns by 240 degrees.
 // Larger ones grow with it up to 1.25 times that; beyond, a break in the shaft says that they are cut. No arrow leaves its
 // scene: the camera holds them at kLeastArrows of these lengths, and they are as long as what it then shows has room for.
