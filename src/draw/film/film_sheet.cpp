@@ -57,7 +57,11 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
   strip.accurate_until = motion.accurate_until();
   if (const Simulation* simulation = motion.simulation()) {
     // Of higher order curves bend as the motion does, and steps are not seen.
-    if (simulation->method && simulation->method->order == 1 && simulation->step >= kSeenStep * run.t.back()) strip.step = simulation->step;
+    if (simulation->method && simulation->method->order == 1 && simulation->step >= kSeenStep * run.t.back()) {
+      strip.step = simulation->step;
+      strip.breaks = simulation->torque->breaks(simulation->duration);
+      std::ranges::sort(strip.breaks);
+    }
     const Trajectory& whole = motion.trajectory();
     if (whole.energy_at_steps && !motion.is_wild()) {
       // At frames, too: that between the ends of long steps is what the curve shows.

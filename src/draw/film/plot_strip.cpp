@@ -165,8 +165,10 @@ Axis time_axis(double end) {
   return {Scale::linear, 0, round - end < kLongestFrame ? round : end, "", "s"};
 }
 
-bool is_multiple(double t, double step) {
-  return std::abs(t - step * std::round(t / step)) <= kSameEnd * step;
+bool ends_step(double t, const StripCurve& curve) {
+  const double same = kSameEnd * curve.step;
+  const auto next = std::lower_bound(curve.breaks.begin(), curve.breaks.end(), t - same);
+  return std::abs(t - curve.step * std::round(t / curve.step)) <= same || (next != curve.breaks.end() && *next <= t + same);
 }
 
 // The first `count` points, and where steps end.
@@ -177,7 +179,7 @@ void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve
   draw_curve(picture, frame, points, style, theme);
   if (curve.step <= 0) return;
   for (const Point& p : points)
-    if (is_multiple(p.x, curve.step) && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
+    if (ends_step(p.x, curve) && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
       draw_marker(picture, frame.at(p), Marker::disc, kStepMark, style.color, theme.background);
 }
 
@@ -275,7 +277,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     if (sum_alone) shown.curves = {plot.curves.back()};
     for (std::size_t c = 0; c < shown.curves.size(); ++c) {
       StripCurve curve{
-          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild, run.step};
+          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild, run.step, run.breaks};
       const std::vector<double>& y = shown.curves[c].y;
       const std::vector<double>& t = run.times[i];
       for (std::size_t k = 0; k < std::min(y.size(), t.size()); ++k) curve.points.push_back({t[k], y[k]});

@@ -17,6 +17,7 @@ struct StripCurve {
   std::vector<Point> points;  // (t, y), t rising
   bool decides = true;        // on the range of the axis; curves of runs that went wild do not
   double step = 0;            // s: points at its multiples are marked; 0: none
+  std::vector<double> breaks{};  // s, rising: likewise, where steps end between them
 };
 
 struct StripData {
@@ -58,6 +59,7 @@ struct StripRun {
   std::vector<std::vector<double>> times;  // s, of each plot's points
   std::vector<PlotCurves> plots;
   double step = 0;  // s, of a run whose steps are seen one by one
+  std::vector<double> breaks{};  // s, rising: of its torques, at which steps end, too
   double accurate_until = HUGE_VAL;  // s
   double energy_off = 0;             // J: what a run makes or loses of it that no one should take for motion
 };

@@ -88,6 +88,10 @@ TEST(PlotStrip, MarksLongStepsAndWhatIsNotAccurate) {
   run.step = 2;
   EXPECT_EQ(discs(drawn(run)) - none, 3u * (discs(drawn(run)) - none) / 3) << "a mark each at 0, 2 and 4";
   EXPECT_GE(discs(drawn(run)), none + 3);
+  const std::size_t ends = discs(drawn(run));
+  run.breaks = {1};
+  EXPECT_EQ(3 * (discs(drawn(run)) - none), 4 * (ends - none)) << "a torque jumps at 1 s, where a step ends, too";
+  run.breaks.clear();
   run.step = 0;
   EXPECT_EQ(zones(drawn(run)), 0u);
   EXPECT_EQ(test::words_of(drawn(run)).find("until"), std::string::npos);
