@@ -341,7 +341,7 @@ void run_chart(const ChartOptions& options) {
   require_whole_run(prepared);
   Measured measured = measure_all(prepared, chosen, options);
   apply(measured.choice->best.setting, prepared.simulation);
-  warn_of_run(prepared, "rank");
+  warn_of_rank(prepared, prepared.simulation.duration);
   WorkPrecision data = data_of(prepared, measured, options);
   for (const std::string& name : lit)
     if (std::none_of(data.curves.begin(), data.curves.end(), [&](const ChartCurve& c) { return c.method == name; }))

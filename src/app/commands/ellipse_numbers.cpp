@@ -238,9 +238,9 @@ Motion motion_of(const PoseSources& sources, const CommonOptions& common) {
   for (int k = 0; k <= intervals; ++k) times.push_back(film.scene.duration * k / intervals);
   const Runs runs(film, {}, times);
   runs.require_expected_ends();
-  warn_of_run(film.panels.front());
 
   const Trajectory& run = runs[0];
+  warn_of_run(film.panels.front(), run);
   Motion motion{film.panels.front().simulation.chain, {}, &page_theme(film.scene), film.scene.text_scale,
                 film.scene.camera, film.scene.ellipse, film.panels.front().shapes,
                 film.panels.front().simulation.constraints, film.scene.video, families_of(film.scene),

@@ -346,7 +346,7 @@ void run_energy(const EnergyOptions& options) {
       throw Error(ExitCode::bad_input, "--highlight: " + name + " does not take this scene", scene.place_of("method"));
   const std::vector<MethodRun> runs = run_all(all, until, options.common.quiet);
 
-  warn_of_run(all.first(), "rank");
+  warn_of_rank(all.first(), until);
 
   const Fonts fonts(families_of(scene));
   const ChartLook look = chart_look(options.figure, scene, fonts);

@@ -168,19 +168,40 @@ void tell_warnings(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) tell_warning(line);
 }
 
-void warn_of_run(const PreparedScene& prepared, const std::string& only) {
+namespace {
+
+std::vector<double> instants_until(double end) {
   constexpr int kInstants = 200;
-  const double end = prepared.simulation.duration;
-  if (!(end > 0) || (only == "rank" && prepared.simulation.constraints.empty())) return;
   std::vector<double> times;
   for (int k = 0; k <= kInstants; ++k) times.push_back(end * k / kInstants);
-  const Trajectory trajectory = simulate_audited(prepared.simulation, times, [](double) { return interrupted(); });
+  return times;
+}
+
+bool is_acknowledged(const PreparedScene& prepared, const std::string& kind) {
+  return std::ranges::find(prepared.scene.acknowledge, kind) != prepared.scene.acknowledge.end();
+}
+
+}  // namespace
+
+void warn_of_rank(const PreparedScene& prepared, double end) {
+  if (prepared.simulation.constraints.empty() || !(end > 0) || is_acknowledged(prepared, "rank")) return;
+  const Trajectory trajectory = simulate(prepared.simulation, instants_until(end), [](double) { return interrupted(); });
   throw_if_interrupted();
+  if (const std::optional<Doubt> doubt = doubt_of_rank(prepared.simulation, trajectory, end)) tell_warnings({prepared.scene.name + ": " + doubt->words});
+}
+
+void warn_of_run(const PreparedScene& prepared, const Trajectory& trajectory) {
   std::vector<std::string> lines;
   for (const Doubt& doubt : warnings_of(prepared, trajectory, audit_of(prepared.simulation, trajectory)))
-    if ((only.empty() ? doubt.kind != "samples" : doubt.kind == only) && std::ranges::find(prepared.scene.acknowledge, doubt.kind) == prepared.scene.acknowledge.end())
-      lines.push_back(prepared.scene.name + ": " + doubt.words);
+    if (doubt.kind != "samples" && !is_acknowledged(prepared, doubt.kind)) lines.push_back(prepared.scene.name + ": " + doubt.words);
   tell_warnings(lines);
+}
+
+void warn_of_run(const PreparedScene& prepared) {
+  if (!(prepared.simulation.duration > 0)) return;
+  const Trajectory trajectory = simulate_audited(prepared.simulation, instants_until(prepared.simulation.duration), [](double) { return interrupted(); });
+  throw_if_interrupted();
+  warn_of_run(prepared, trajectory);
 }
 
 std::vector<std::string> warning_lines(const std::string& name, const RunReport& report) {

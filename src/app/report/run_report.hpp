@@ -73,9 +73,13 @@ Json to_json(const std::vector<LimitEvent>& limits);
 
 // On standard error. Said even where all is to be quiet.
 void tell_warnings(const std::vector<std::string>& lines);
-// Of what is computed along a run of which no report is made: tells what speaks against it, but for what the scene
-// acknowledges and what only samples miss. One run by the method that the simulation has. `only`: of this kind alone.
-void warn_of_run(const PreparedScene& prepared, const std::string& only = "");
+// Of what is computed along a run of which no report is made: tells where its constraints come to depend on each other until `end`, s, unless the scene
+// acknowledges that. One run by the method that the simulation has.
+void warn_of_rank(const PreparedScene& prepared, double end);
+// Likewise all that speaks against it, but for what the scene acknowledges and what only samples miss; of one that was
+// looked at with its energy at steps, or of one more.
+void warn_of_run(const PreparedScene& prepared, const Trajectory& trajectory);
+void warn_of_run(const PreparedScene& prepared);
 
 // Layers that the scene draws and the page is too small for, in words; "" where there are none.
 std::string left_out_words(const std::vector<std::string>& layers, const Scene& page);

@@ -49,6 +49,15 @@ void leave_out_unknown(std::vector<double>& t, std::vector<double>& y) {
 
 constexpr double kSeenStep = 0.015;  // of the clip: dots at the ends of such steps stand apart
 
+// J, where it is more than is taken for a motion's own. At frames, too: that between the ends of long steps is what curves show.
+double energy_off(const StagedRun& motion) {
+  const Trajectory& run = motion.trajectory();
+  if (!motion.simulation() || !run.energy_at_steps || motion.is_wild()) return 0;
+  const Audit audit = audit_of(*motion.simulation(), run);
+  const bool is_off = audit.largest_error > kDoubtfulEnergy * audit.energy_moved || doubt_of_energy(*motion.simulation(), run, audit, {});
+  return is_off ? std::max(audit.largest_error, run.energy_at_steps->largest_error) : 0;
+}
+
 // What the plots of the page show of a run; its simulation must be there. The work, and so what is wrong with the energy, is known
 // at its samples alone.
 StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story) {
@@ -62,15 +71,9 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
       strip.breaks = simulation->torque->breaks(simulation->duration);
       std::ranges::sort(strip.breaks);
     }
-    const Trajectory& whole = motion.trajectory();
-    if (whole.energy_at_steps && !motion.is_wild()) {
-      // At frames, too: that between the ends of long steps is what the curve shows.
-      const Audit audit = audit_of(*simulation, whole);
-      if (audit.largest_error > kDoubtfulEnergy * audit.energy_moved || doubt_of_energy(*simulation, whole, audit, {}))
-        strip.energy_off = std::max(audit.largest_error, whole.energy_at_steps->largest_error);
-    }
   }
   if (story.empty() && motion.simulation()) strip.plots = plot_curves(*motion.simulation(), run, motion.curve_samples());
+  if (std::ranges::any_of(strip.plots, [](const PlotCurves& plot) { return plot.quantity == PlotQuantity::energy; })) strip.energy_off = energy_off(motion);
   strip.times.assign(strip.plots.size(), std::vector<double>(run.t.begin(), run.t.begin() + motion.curve_samples()));
   for (std::size_t i = 0; i < strip.plots.size(); ++i)
     if (strip.plots[i].quantity == PlotQuantity::energy_error && run.t.size() > motion.trajectory().t.size())
