@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/format.hpp"
 
@@ -165,10 +166,10 @@ Axis time_axis(double end) {
   return {Scale::linear, 0, round - end < kLongestFrame ? round : end, "", "s"};
 }
 
-bool ends_step(double t, const StripCurve& curve) {
-  const double same = kSameEnd * curve.step;
-  const auto next = std::lower_bound(curve.breaks.begin(), curve.breaks.end(), t - same);
-  return std::abs(t - curve.step * std::round(t / curve.step)) <= same || (next != curve.breaks.end() && *next <= t + same);
+bool ends_step(double t, const StripRun& run) {
+  const double same = kSameEnd * run.step;
+  const auto next = std::lower_bound(run.breaks.begin(), run.breaks.end(), t - same);
+  return std::abs(t - run.step * std::round(t / run.step)) <= same || (next != run.breaks.end() && *next <= t + same);
 }
 
 // The first `count` points, and where steps end.
@@ -177,9 +178,8 @@ void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve
   CurveStyle style = curve.style;
   style.color = style.color.faded(opacity);
   draw_curve(picture, frame, points, style, theme);
-  if (curve.step <= 0) return;
-  for (const Point& p : points)
-    if (ends_step(p.x, curve) && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
+  for (const Point& p : curve.marks)
+    if (!points.empty() && p.x <= points.back().x && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
       draw_marker(picture, frame.at(p), Marker::disc, kStepMark, style.color, theme.background);
 }
 
@@ -277,10 +277,11 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     if (sum_alone) shown.curves = {plot.curves.back()};
     for (std::size_t c = 0; c < shown.curves.size(); ++c) {
       StripCurve curve{
-          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild, run.step, run.breaks};
+          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild};
       const std::vector<double>& y = shown.curves[c].y;
       const std::vector<double>& t = run.times[i];
       for (std::size_t k = 0; k < std::min(y.size(), t.size()); ++k) curve.points.push_back({t[k], y[k]});
+      if (run.step > 0) std::ranges::copy_if(curve.points, std::back_inserter(curve.marks), [&](const Point& p) { return ends_step(p.x, run); });
       data.curves.push_back(std::move(curve));
     }
   }

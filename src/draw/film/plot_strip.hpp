@@ -16,8 +16,7 @@ struct StripCurve {
   CurveStyle style;
   std::vector<Point> points;  // (t, y), t rising
   bool decides = true;        // on the range of the axis; curves of runs that went wild do not
-  double step = 0;            // s: points at its multiples are marked; 0: none
-  std::vector<double> breaks{};  // s, rising: likewise, where steps end between them
+  std::vector<Point> marks{};  // of the points, where a step of the run ends and is seen
 };
 
 struct StripData {
