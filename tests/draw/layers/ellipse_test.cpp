@@ -338,14 +338,26 @@ TEST(Ellipse, InSpaceIsTheSilhouetteOfTheEllipsoid) {
 }
 
 // A cube of 1 m about the tip, seen along -z, at 1 H a metre.
-TEST(Ellipsoid, IsHiddenWhereABodyStandsBeforeIt) {
-  Visual visual;
-  visual.size = {1, 1, 1};
+struct CubeAtTip {
+  CubeAtTip() : cube(load_body_shapes({visual()}, MeshUp::rviz, shelf)), chain(test::model("rr")), ws(chain) {
+    compute_kinematics(chain, ws, std::vector<double>{0, 0}, std::vector<double>{0, 0});
+  }
+  static Visual visual() {
+    Visual one;
+    one.size = {1, 1, 1};
+    return one;
+  }
+
   MeshShelf shelf;
-  const BodyShapes cube = load_body_shapes({visual}, MeshUp::rviz, shelf);
-  const Chain chain = test::model("rr");
-  Workspace ws(chain);
-  compute_kinematics(chain, ws, std::vector<double>{0, 0}, std::vector<double>{0, 0});
+  BodyShapes cube;
+  Chain chain;
+  Workspace ws;
+};
+
+TEST(Ellipsoid, IsHiddenWhereABodyStandsBeforeIt) {
+  const CubeAtTip at_tip;
+  const BodyShapes& cube = at_tip.cube;
+  const Workspace& ws = at_tip.ws;
   const Hides hides = robot_hides(cube, ws, Camera{}, Eigen::Vector3d::Zero());
   EXPECT_TRUE(hides({0, 0, -2}));
   EXPECT_TRUE(hides({0.4, 0.4, 0.4})) << "inside";
@@ -380,13 +392,9 @@ TEST(Ellipsoid, IsHiddenWhereABodyStandsBeforeIt) {
 
 // Words keep off all that a body covers, not only off a line through it.
 TEST(Ellipsoid, IsNamedBesideTheBodiesBeforeIt) {
-  Visual visual;
-  visual.size = {1, 1, 1};
-  MeshShelf shelf;
-  const BodyShapes cube = load_body_shapes({visual}, MeshUp::rviz, shelf);
-  const Chain chain = test::model("rr");
-  Workspace ws(chain);
-  compute_kinematics(chain, ws, std::vector<double>{0, 0}, std::vector<double>{0, 0});
+  const CubeAtTip at_tip;
+  const BodyShapes& cube = at_tip.cube;
+  const Workspace& ws = at_tip.ws;
   std::vector<Obstacle> covered;
   add_silhouettes(covered, cube, ws, Camera{});
   const auto is_free = [&](Point middle) {
