@@ -2,9 +2,9 @@
 # installed tree may be moved.
 include(GNUInstallDirs)
 
-# FFmpeg's libraries, Mesa's and Cairo are opened by name when they are needed, which no tool sees. What this library, which is
+# FFmpeg's libraries, x264, Mesa's and Cairo are opened by name when they are needed, which no tool sees. What this library, which is
 # installed nowhere, is linked with by the same functions tells which packages the program needs besides.
-pkg_check_modules(OPENED REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale osmesa cairo cairo-ft cairo-pdf)
+pkg_check_modules(OPENED REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale x264 osmesa cairo cairo-ft cairo-pdf)
 add_library(chainreel_opened MODULE EXCLUDE_FROM_ALL src/encode/opened_libraries.cpp src/render/opened_libraries.cpp)
 target_link_libraries(chainreel_opened PRIVATE PkgConfig::OPENED)
 target_include_directories(chainreel_opened PRIVATE ${CMAKE_SOURCE_DIR}/src)

@@ -8,9 +8,8 @@
 namespace chainreel {
 namespace {
 
-// The same bytes on every machine and, as films are encoded in chunks beside one another, the least work for each: x264 and
-// libvpx cut frames by their number of threads. Per frame of 1920x1080, x264 took 11.7 ms of a processor by one thread and
-// 12.5 by four.
+// The same bytes on every machine and, as films are encoded in chunks beside one another, the least work for each: libvpx cuts
+// frames by their number of threads.
 constexpr int kEncoderThreads = 1;
 constexpr double kGopSeconds = 2;
 constexpr int kProresQuantiser = 4;  // a fixed one; the decoded picture is within 2/255 in flat areas
@@ -34,33 +33,8 @@ void set_gop(AVCodecContext& context, FrameRate fps) {
   context.flags |= AV_CODEC_FLAG_CLOSED_GOP;
 }
 
+// As other programs ask for it, which take the preset as it is: to be measured beside ours, see X264Encoder.
 AVDictionary* h264_options(AVCodecContext& context, const VideoSettings& settings) {
-  context.pix_fmt = AV_PIX_FMT_YUV420P;
-  set_gop(context, settings.fps);
-  AVDictionary* options = nullptr;
-  libav().av_dict_set(&options, "preset", "veryfast", 0);
-  const double crf = crf_of(settings);
-  // Without loss at 0, which x264 can in High 4:4:4 Predictive alone, whatever the pixels.
-  if (crf > 0) libav().av_dict_set(&options, "profile", "high", 0);
-  // What stands still is as a group's first frame has it, so that this one is made finely and what moves by less. x264 itself
-  // weighs what lasts (mbtree), by frames of half the size that are looked at ahead: for files of the same size its PSNR was 2 dB
-  // worse and its time 1.15 times that of ours. A fixed quantiser (qp) took a quarter less, and left specks where lines had been.
-  const double moved = crf > 0 ? std::min(51.0, crf + 9) : 0, first = crf > 0 ? crf - 3 : 0;
-  libav().av_dict_set(&options, "crf", format_shortest(moved).c_str(), 0);
-  // cpu-independent: the same bytes whichever instruction set x264 finds. The rest beside the preset as it is, at 1920x1080: no
-  // frames between two others, where veryfast looks for up to three; motion sought by whole pixels (me, subme), as most of them
-  // stand still; no frame looked at ahead, where veryfast has ten; no weights of references, as nothing fades. Less than half
-  // of the time and 120 MB less for each encoder. Motion by half pixels, in hexagons, took 14 MB and a fifth of the time for files
-  // 10 to 12 % smaller of the same SSIM.
-  const std::string parameters =
-      "scenecut=0:open-gop=0:force-cfr=1:cpu-independent=1:bframes=0:me=dia:subme=0:weightp=0:rc-lookahead=0:mbtree=0:ipratio=" +
-      format_shortest(std::exp2((moved - first) / 6));
-  libav().av_dict_set(&options, "x264-params", parameters.c_str(), 0);
-  return options;
-}
-
-// As programs ask for it that take the preset as it is.
-AVDictionary* preset_options(AVCodecContext& context, const VideoSettings& settings) {
   context.pix_fmt = AV_PIX_FMT_YUV420P;
   AVDictionary* options = nullptr;
   libav().av_dict_set(&options, "preset", "veryfast", 0);
@@ -96,22 +70,27 @@ constexpr CodecRow kH264{"libx264", &kMp4, 18, 51, false, false, false, h264_opt
 constexpr CodecRow kVp9{"libvpx-vp9", &kWebm, 28, 63, true, false, false, vp9_options};
 constexpr CodecRow kProres{"prores_ks", &kMov, {}, {}, true, true, true, prores_options};
 
-CodecContextPtr open_codec(const CodecRow& row, decltype(CodecRow::options) options_of, const VideoSettings& settings, int threads) {
-  CodecContextPtr context = make_context(row.encoder);
+CodecContextPtr context_of(const VideoSettings& settings) {
+  CodecContextPtr context = make_context(row_of(settings.codec).encoder);
   context->width = settings.width;
   context->height = settings.height;
   context->color_primaries = AVCOL_PRI_BT709;
   context->color_trc = AVCOL_TRC_BT709;
   context->colorspace = AVCOL_SPC_BT709;
   context->color_range = AVCOL_RANGE_MPEG;
-  if (!row.every_pixel)
+  if (!row_of(settings.codec).every_pixel)
     context->chroma_sample_location = AVCHROMA_LOC_CENTER;  // as yuv.hpp computes it
   // One tick is one frame: frame k is shown from k * den / num on, exactly.
   context->time_base = {settings.fps.den, settings.fps.num};
   context->framerate = {settings.fps.num, settings.fps.den};
-  context->thread_count = threads;
+  return context;
+}
 
-  AVDictionary* options = options_of(*context, settings);
+CodecContextPtr open_codec(const VideoSettings& settings, int threads) {
+  const CodecRow& row = row_of(settings.codec);
+  CodecContextPtr context = context_of(settings);
+  context->thread_count = threads;
+  AVDictionary* options = row.options(*context, settings);
   const int code = libav().avcodec_open2(context.get(), context->codec, &options);
   libav().av_dict_free(&options);
   check_libav(code, ExitCode::no_renderer,
@@ -140,11 +119,14 @@ const CodecRow& row_of(VideoCodec codec) {
 }
 
 CodecContextPtr open_encoder(const VideoSettings& settings) {
-  return open_codec(row_of(settings.codec), row_of(settings.codec).options, settings, kEncoderThreads);
+  if (settings.codec != VideoCodec::h264) return open_codec(settings, kEncoderThreads);
+  CodecContextPtr described = context_of(settings);
+  described->pix_fmt = AV_PIX_FMT_YUV420P;
+  return described;
 }
 
 CodecContextPtr open_preset_h264(const VideoSettings& settings, int threads) {
-  return open_codec(kH264, preset_options, settings, threads);
+  return open_codec(settings, threads);
 }
 
 CodecContextPtr open_small_encoder(const char* name, AVPixelFormat format, int width, int height,

@@ -25,7 +25,8 @@ const CodecRow& row_of(VideoCodec codec);
 // Frames from one key frame to the next, at most: two seconds.
 int gop_of(FrameRate fps);
 
-// The encoder of a film; settings are checked. Throws Error (exit 4) where FFmpeg has none or refuses.
+// The encoder of a film; settings are checked. Throws Error (exit 4) where FFmpeg has none or refuses. Of H.264 it is not open and
+// tells what a track of X264Encoder's is, all but its head.
 CodecContextPtr open_encoder(const VideoSettings& settings);
 
 // x264 as programs have it that ask for its preset veryfast and this quality, with threads of its own.

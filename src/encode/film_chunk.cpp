@@ -7,6 +7,7 @@
 #include "encode/codecs.hpp"
 #include "encode/film_input.hpp"
 #include "encode/muxer.hpp"
+#include "encode/x264_encoder.hpp"
 
 namespace chainreel {
 namespace {
@@ -55,8 +56,9 @@ struct FilmWriter::State {
         delay(encoder->has_b_frames),
         packet(check_allocated(libav().av_packet_alloc(), "a packet")) {}
 
-  static CodecContextPtr encoder_with(const VideoSettings& settings, const std::string& head) {
+  static CodecContextPtr encoder_with(const VideoSettings& settings, std::string head) {
     CodecContextPtr encoder = open_encoder(settings);
+    if (head.empty() && settings.codec == VideoCodec::h264) head = X264Encoder(settings).head();
     if (head.empty()) return encoder;
     libav().av_freep(&encoder->extradata);
     encoder->extradata_size = 0;

@@ -10,6 +10,7 @@
 
 #include "core/loaded_libraries.hpp"
 #include "encode/library_versions.hpp"
+#include "encode/x264_functions.hpp"
 
 namespace chainreel {
 namespace {
@@ -101,8 +102,8 @@ std::vector<std::string> encoder_builds() {
 
 std::vector<std::string> available_encoders() {
   std::vector<std::string> found;
-  for (const char* name : kEncoders)
-    if (libav().avcodec_find_encoder_by_name(name) != nullptr) found.emplace_back(name);
+  for (const std::string_view name : kEncoders)
+    if (name == "libx264" ? has_x264() : libav().avcodec_find_encoder_by_name(name.data()) != nullptr) found.emplace_back(name);
   return found;
 }
 

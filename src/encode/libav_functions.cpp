@@ -7,10 +7,8 @@
 #include "core/error.hpp"
 
 namespace chainreel {
-namespace {
 
-// Of the version whose headers the program was compiled with: structures differ between them.
-void* open_library(const std::string& name, int version) {
+void* open_film_library(const std::string& name, int version, const std::string& package) {
   const std::string file = "lib" + name + ".so." + std::to_string(version);
   void* const library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (library != nullptr) return library;
@@ -19,7 +17,13 @@ void* open_library(const std::string& name, int version) {
   if (reason.find("map segment") != std::string::npos || reason.find("llocate memory") != std::string::npos)
     throw Error(ExitCode::limit, "no films: out of memory (" + reason + "): raise the limit of address space (ulimit -v)");
   throw Error(ExitCode::no_renderer,
-              "no films: " + reason + "; install the Debian package lib" + name + std::to_string(version));
+              "no films: " + reason + "; install the Debian package " + package + std::to_string(version));
+}
+
+namespace {
+
+void* open_library(const std::string& name, int version) {
+  return open_film_library(name, version, "lib" + name);
 }
 
 LibavFunctions load_functions() {

@@ -10,6 +10,8 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <string>
+
 namespace chainreel {
 
 #define CHAINREEL_LIBAV_UTIL(X)                                                                       \
@@ -42,5 +44,9 @@ struct LibavFunctions {
 
 // Opens the libraries at the first call; they stay. Throws Error (exit 4) naming the package where one is not there.
 const LibavFunctions& libav();
+
+// lib`name`.so of the version whose headers the program was compiled with: structures differ between them. Throws Error (exit 4
+// naming the package, whose name ends with the version; 5 where there is no room for it).
+void* open_film_library(const std::string& name, int version, const std::string& package);
 
 }  // namespace chainreel

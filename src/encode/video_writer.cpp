@@ -1,6 +1,7 @@
 #include "encode/video_writer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -8,6 +9,8 @@
 #include "encode/bleed.hpp"
 #include "encode/codecs.hpp"
 #include "encode/film_chunk.hpp"
+#include "encode/still_blocks.hpp"
+#include "encode/x264_encoder.hpp"
 #include "encode/yuv.hpp"
 
 namespace chainreel {
@@ -29,7 +32,7 @@ void copy_alpha(const Image& image, const PixelBox& box, std::uint8_t* plane, in
 }  // namespace
 
 double crf_of(const VideoSettings& settings) {
-  return settings.crf.value_or(row_of(settings.codec).crf.value_or(0));
+  return std::round(settings.crf.value_or(row_of(settings.codec).crf.value_or(0)));
 }
 
 bool has_crf(VideoCodec codec) {
@@ -58,7 +61,7 @@ void require_settings(const VideoSettings& settings) {
                                      std::to_string(settings.fps.num) + "/" +
                                      std::to_string(settings.fps.den));
   const CodecRow& row = row_of(settings.codec);
-  if (const double crf = crf_of(settings); row.worst_crf && !(crf >= 0 && crf <= *row.worst_crf))
+  if (const double crf = settings.crf.value_or(0); row.worst_crf && !(crf >= 0 && crf <= *row.worst_crf))
     throw Error(ExitCode::usage, "the quality (crf) must be from 0 to " + format_shortest(*row.worst_crf) +
                                      ", not " + format_shortest(crf));
   if (settings.alpha && !row.alpha)
@@ -67,6 +70,7 @@ void require_settings(const VideoSettings& settings) {
 
 struct ChunkTape::State {
   std::vector<FramePtr> frames;
+  std::vector<StillBlocks::Flags> still;  // of H.264, of each frame
 };
 
 ChunkTape::ChunkTape() : state_(std::make_unique<State>()) {}
@@ -104,16 +108,32 @@ struct ChunkEncoder::State {
   FilmChunk chunk;
   ChunkTape* tape;
   StageTime conversion;
+  std::unique_ptr<X264Encoder> x264;  // of H.264, in the place of the other
+  StillBlocks blocks;
 
   State(const VideoSettings& s, ChunkTape* t)
-      : settings(s), encoder(open_encoder(s)), frame(allocate_frame(*encoder)), tape(t) {}
+      : settings(s), encoder(open_encoder(s)), frame(allocate_frame(*encoder)), tape(t), blocks(s.width, s.height) {
+    if (s.codec == VideoCodec::h264) x264 = std::make_unique<X264Encoder>(s);
+  }
 
-  void send(const AVFrame* next) {
-    encode_frame(*encoder, next, "",
-                 [this](const AVPacket& packet) { chunk.packets.push_back(kept_packet(packet)); });
+  void send(const AVFrame* next, StillBlocks::Flags& still) {
+    if (!x264) {
+      encode_frame(*encoder, next, "", [this](const AVPacket& packet) { chunk.packets.push_back(kept_packet(packet)); });
+    } else if (next != nullptr) {
+      x264->encode(*next, still, [this](FilmPacket packet) { chunk.packets.push_back(std::move(packet)); });
+    }
   }
 
   bool has_frame = false;
+
+  PlanesYuv420 planes() {
+    PlanesYuv420 planes;
+    for (int i = 0; i < 3; ++i) {
+      planes.plane[i] = frame->data[i];
+      planes.stride[i] = frame->linesize[i];
+    }
+    return planes;
+  }
 
   // What `frame` shows in the box; the rest of the encoder's frame stays what it was.
   void convert(const Image& image, const PixelBox& box) {
@@ -126,12 +146,7 @@ struct ChunkEncoder::State {
       convert_to_yuv444(image, box, planes);
       return;
     }
-    PlanesYuv420 planes;
-    for (int i = 0; i < 3; ++i) {
-      planes.plane[i] = frame->data[i];
-      planes.stride[i] = frame->linesize[i];
-    }
-    convert_to_yuv420(image, box, planes);
+    convert_to_yuv420(image, box, planes());
     if (settings.alpha) copy_alpha(image, box, frame->data[3], frame->linesize[3]);
   }
 };
@@ -154,6 +169,8 @@ void ChunkEncoder::write(const Image& image, const std::vector<PixelBox>& change
   // The encoder may still hold the last frame: then its pixels are not ours to change, and a copy takes their place.
   check_libav(libav().av_frame_make_writable(s.frame.get()), ExitCode::limit, "no memory left for a frame");
   const PixelBox whole = {0, 0, image.width, image.height};
+  const bool follows = s.x264 && s.has_frame;
+  if (follows) s.blocks.keep(s.planes(), changed);
   if (s.settings.alpha) {  // colours spread beyond what changed
     s.bled = image;
     bleed_colors(s.bled);
@@ -165,20 +182,25 @@ void ChunkEncoder::write(const Image& image, const std::vector<PixelBox>& change
   }
   s.has_frame = true;
   s.frame->pts = s.chunk.frames++;
+  StillBlocks::Flags unknown;
+  StillBlocks::Flags& still = follows ? s.blocks.compare(s.planes()) : unknown;
   s.conversion += clock.lap();
-  if (s.tape != nullptr)
+  if (s.tape != nullptr) {
     s.tape->state_->frames.emplace_back(check_allocated(libav().av_frame_clone(s.frame.get()), "a frame"));
-  else
-    s.send(s.frame.get());
+    s.tape->state_->still.push_back(still);
+  } else {
+    s.send(s.frame.get(), still);
+  }
 }
 
 void ChunkEncoder::play(const ChunkTape& tape) {
-  for (const FramePtr& frame : tape.state_->frames) state_->send(frame.get());
+  for (std::size_t i = 0; i < tape.state_->frames.size(); ++i) state_->send(tape.state_->frames[i].get(), tape.state_->still[i]);
   state_->chunk.frames += tape.frames();
 }
 
 void ChunkEncoder::finish() {
-  state_->send(nullptr);
+  StillBlocks::Flags none;
+  state_->send(nullptr, none);
 }
 
 StageTime ChunkEncoder::conversion() const {

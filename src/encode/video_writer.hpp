@@ -1,6 +1,6 @@
 // Frames to what a film is made of: constant frame rate, BT.709 limited range and tagged, closed GOPs of at most 2 s:
 //
-//   h264    MP4, High, yuv420p, x264 veryfast but for one B frame and four frames looked at ahead, CRF 18, index first;
+//   h264    MP4, High, yuv420p, x264 at fixed quantisers by CRF (18), which passes over blocks that are as they were, index first;
 //           the stream depends neither on the processor nor on its number of cores; without loss at CRF 0, then High
 //           4:4:4 Predictive
 //   vp9     WebM, yuv420p or yuva420p, libvpx CRF 28
@@ -27,13 +27,13 @@ struct VideoSettings {
   int width = 1920;
   int height = 1080;
   FrameRate fps{};
-  std::optional<double> crf{};  // 0 best to 51 (h264) or 63 (vp9); absent: 18 and 28; prores has none
+  std::optional<double> crf{};  // 0 best to 51 (h264) or 63 (vp9), rounded; absent: 18 and 28; prores has none
   VideoCodec codec = VideoCodec::h264;
   bool alpha = false;  // vp9 and prores alone
   Tags tags{};
 };
 
-// The quality that holds: the settings' own or the codec's.
+// The quality that holds: the settings' own or the codec's, a whole number, as encoders take it.
 double crf_of(const VideoSettings& settings);
 bool has_crf(VideoCodec codec);
 

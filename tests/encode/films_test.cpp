@@ -319,6 +319,46 @@ TEST(Films, OfTheBestQualityLoseNothingButChroma) {
   EXPECT_TRUE(pictures_agree(probe_video(folder.file("a.mp4")).first, grey, {.max = 2, .mean = 1}, "lossless"));
 }
 
+// What boxes touch is compared: the stream hangs on pixels, not on who told of them and how finely.
+TEST(FilmChunks, AreTheSameWhoeverTellsWhatChanged) {
+  const VideoSettings settings{.width = kFilmWidth, .height = kFilmHeight};
+  const auto packets = [&](auto boxes_of) {
+    ChunkEncoder encoder(settings);
+    for (int k = 0; k < 12; ++k) encoder.write(disc_picture(kFilmWidth, kFilmHeight, k / 2), boxes_of(k));  // every second one stands
+    encoder.finish();
+    std::string all;
+    for (const FilmPacket& packet : encoder.take().packets) all += packet.data;
+    return all;
+  };
+  using Boxes = std::vector<PixelBox>;
+  const std::string whole = packets([](int) { return Boxes{{0, 0, kFilmWidth, kFilmHeight}}; });
+  EXPECT_EQ(packets([](int k) { return k % 2 == 0 ? Boxes{{32, 10, 90, 98}, {90, 0, 80, 108}} : Boxes{}; }), whole) << "boxes may overlap";
+  EXPECT_NE(packets([](int k) { return k == 0 ? Boxes{{0, 0, kFilmWidth, kFilmHeight}} : Boxes{}; }), whole) << "negative control";
+}
+
+// Blocks that are passed over as still are those of the frame before, to the last bit; a film of noise that changes here and there.
+TEST(Films, WithoutLossKeepBlocksThatStandAndThoseThatDoNot) {
+  constexpr int kWide = 200, kHigh = 120;  // neither a multiple of a block's side
+  const TemporaryFolder folder;
+  FilmOfFrames writer(folder.file("a.mp4"), {.width = kWide, .height = kHigh, .crf = 0});
+  Image grey = random_picture(kWide, kHigh, 1);
+  const auto in_grey = [](Image& image) {
+    for (std::size_t i = 0; i < image.bgra.size(); i += 4) image.bgra[i] = image.bgra[i + 2] = image.bgra[i + 1], image.bgra[i + 3] = 255;
+  };
+  in_grey(grey);
+  const Image first = grey;
+  for (int k = 0; k < 30; ++k) {
+    // One pixel, in another block each time, at last in the corner that no whole block holds.
+    const int x = k == 29 ? kWide - 1 : 7 * k % kWide, y = k == 29 ? kHigh - 1 : 11 * k % kHigh;
+    if (k > 0) set_pixel(grey, x, y, pixel_of(k % 2 == 0 ? 0xFFFFFF : 0));
+    writer.write(grey);
+  }
+  writer.finish();
+  const VideoFacts film = probe_video(folder.file("a.mp4"));
+  EXPECT_TRUE(pictures_agree(film.last, grey, {.max = 2, .mean = 1}, "lossless"));  // limited range rounds
+  EXPECT_FALSE(pictures_agree(film.last, first, {.max = 2, .mean = 1}, "")) << "negative control";
+}
+
 // Negative controls of the probe.
 
 TEST(VideoProbe, AnotherLengthRateOrSizeIsSeen) {

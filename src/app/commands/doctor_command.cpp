@@ -49,7 +49,7 @@ void examine_encoders(Examination& examination) {
   examination.report["builds"] = encoder_builds();
   if (std::find(encoders.begin(), encoders.end(), "libx264") == encoders.end())
     examination.missing.push_back(
-        {"no H.264 encoder: install Debian's libavcodec with libx264 (package libavcodec59)", {}});
+        {"no H.264 encoder: install Debian's package libx264-164", {}});
 }
 
 // The width of vectors stands in the renderer's name.

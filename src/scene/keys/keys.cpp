@@ -236,7 +236,7 @@ std::vector<Chapter> chapters() {
             .absent("out/NAME.mp4; of layout transparent NAME.mov")
             .of_page()
             .flag(FlagGroup::output, "--preset"),
-        Row("video.crf", &Scene::video, &Video::crf, "quality of films, 0 the best")
+        Row("video.crf", &Scene::video, &Video::crf, "quality of films, 0 the best, rounded")
             .within(0, 63)
             .hint("; 0 is the best, 51 the most of MP4")
             .absent("18 of MP4, 28 of WebM")
