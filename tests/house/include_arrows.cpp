@@ -132,6 +132,7 @@ const House& house() {
                    {"zlib.h", {"encode"}},
                    {"minizip/", {"table"}},
                    {"libimagequant.h", {"encode"}},
+                   {"x264.h", {"encode"}},
                    {"urdf_", {"model"}},
                    {"console_bridge/", {"model"}},
                    {"tinyxml2.h", {"app", "model"}},
