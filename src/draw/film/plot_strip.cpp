@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/format.hpp"
+#include "picture/thin_points.hpp"
 
 namespace chainreel {
 namespace {
@@ -175,9 +176,13 @@ bool ends_step(double t, const StripRun& run) {
 // The first `count` points, and where steps end.
 void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve, std::size_t count, const Theme& theme, double opacity) {
   const std::span points = std::span(curve.points).first(count);
+  std::vector<Point> path;
+  for (const std::size_t i : curve.shown)
+    if (i < count) path.push_back(points[i]);
+  if (count > 0 && !std::ranges::binary_search(curve.shown, count - 1)) path.push_back(points.back());
   CurveStyle style = curve.style;
   style.color = style.color.faded(opacity);
-  draw_curve(picture, frame, points, style, theme);
+  draw_curve(picture, frame, path, style, theme);
   for (const Point& p : curve.marks)
     if (!points.empty() && p.x <= points.back().x && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
       draw_marker(picture, frame.at(p), Marker::disc, kStepMark, style.color, theme.background);
@@ -208,6 +213,7 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     const auto out = std::ranges::find_if(curve.points, [&](const Point& p) { return p.y < frame_.y.low || p.y > frame_.y.high; });
     if (out != curve.points.end()) curve.points.erase(out + 1, curve.points.end());
   }
+  for (StripCurve& curve : data_.curves) curve.shown = thin_points(frame_, curve.points);
 }
 
 void PlotStrip::draw_static(Picture& picture) const {

@@ -17,6 +17,7 @@ struct StripCurve {
   std::vector<Point> points;  // (t, y), t rising
   bool decides = true;        // on the range of the axis; curves of runs that went wild do not
   std::vector<Point> marks{};  // of the points, where a step of the run ends and is seen
+  std::vector<std::size_t> shown{};  // which points a strip draws: the rest lie on the lines between them
 };
 
 struct StripData {

@@ -1,0 +1,64 @@
+#include "picture/thin_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chainreel {
+namespace {
+
+constexpr double kOff = 0.00005;  // units of H: a twentieth of a pixel of 1080 lines, a tenth of one of 2160
+
+// Directions of lines from one point that pass others within kOff, and end behind them. None turns back to the left.
+class Directions {
+ public:
+  bool hold(Point d) const {
+    const double angle = std::atan2(d.y, d.x);
+    return angle >= low_ && angle <= high_ && std::hypot(d.x, d.y) >= reach_ - kOff;
+  }
+  void narrow(Point d) {
+    const double length = std::hypot(d.x, d.y), angle = std::atan2(d.y, d.x);
+    reach_ = std::max(reach_, length);
+    if (length <= kOff) return;
+    const double half = std::asin(kOff / length);
+    low_ = std::max(low_, angle - half);
+    high_ = std::min(high_, angle + half);
+  }
+
+ private:
+  double low_ = -HUGE_VAL, high_ = HUGE_VAL, reach_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::size_t> thin_points(const PlotFrame& frame, std::span<const Point> data) {
+  std::vector<std::size_t> kept;
+  Point from{};
+  Directions directions;
+  bool is_open = false;  // a line has begun at the last kept point and may go on
+  const auto keep = [&](std::size_t i, bool shows) {
+    if (kept.empty() || kept.back() != i) kept.push_back(i);
+    is_open = shows;
+    if (shows) from = frame.at(data[i]), directions = {};
+  };
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    if (!frame.can_show(data[i])) {
+      if (i > 0) keep(i - 1, false);
+      keep(i, false);
+      continue;
+    }
+    Point d = is_open ? frame.at(data[i]) - from : Point{};
+    // The line ends at the point before where it cannot end here.
+    if (is_open && (!(d.x > 0) || !directions.hold(d)) && i > 0) {
+      keep(i - 1, true);
+      d = frame.at(data[i]) - from;
+    }
+    if (!is_open || !(d.x > 0))
+      keep(i, true);
+    else
+      directions.narrow(d);
+  }
+  if (!data.empty()) keep(data.size() - 1, true);
+  return kept;
+}
+
+}  // namespace chainreel
