@@ -7,6 +7,7 @@
 #include "core/format.hpp"
 #include "sim/audit.hpp"
 #include "sim/drive/probe.hpp"
+#include "sim/instant.hpp"
 #include "sim/system/chain_system.hpp"
 #include "sim/torques_along.hpp"
 
@@ -76,6 +77,10 @@ std::string title_of(PlotQuantity quantity, const Chain& chain) {
       return kMultipliers;
     case PlotQuantity::constraint_error:
       return kMissed;
+    case PlotQuantity::effective_mass:
+      return "effective mass [kg]";
+    case PlotQuantity::energy_speed:
+      return "speed at 0.5 J [m/s]";
     case PlotQuantity::expression:
       break;
   }
@@ -108,6 +113,10 @@ void require_no_curve_alone(const PlotEntry& entry, const std::vector<std::strin
     throw Error(ExitCode::bad_input, "'" + entry.value + "' is a curve of the plot `energy`, which has all of them: plot: [energy]", entry.place);
 }
 
+bool is_of_tip(PlotQuantity quantity) {
+  return quantity == PlotQuantity::effective_mass || quantity == PlotQuantity::energy_speed;
+}
+
 void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, const std::optional<Foot>& foot, int rows) {
   PlotSet::Plot plot;
   plot.quantity = value_named<PlotQuantity>(entry.value).value_or(PlotQuantity::expression);
@@ -115,6 +124,7 @@ void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, const 
   const bool is_of_constraints = plot.quantity == PlotQuantity::lambda || plot.quantity == PlotQuantity::constraint_error;
   if (is_of_constraints && rows == 0)
     throw Error(ExitCode::bad_input, "there is no " + to_string(plot.quantity) + " to plot: the scene has no constraints", entry.place);
+  if (is_of_tip(plot.quantity)) require_tip_for(chain, entry.value, entry.place);
   if (plot.quantity == PlotQuantity::expression) {
     require_no_curve_alone(entry, plots.probe.names());
     plot.value = Expression::parse(entry.value, plots.probe.names(), entry.place);
@@ -241,6 +251,25 @@ PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simula
   return plot;
 }
 
+// Along the axes of the ellipse at the end effector; of a mass that is infinite along one the speed is zero.
+PlotCurves tip_axes(const Simulation& simulation, const Trajectory& trajectory, int samples, bool as_speeds) {
+  const TipMass tip(simulation.chain, simulation.constraints);
+  Workspace ws(simulation.chain);
+  PlotCurves plot;
+  for (int k = 0; k < samples; ++k) {
+    const EffectiveMass mass = tip.at(ws, trajectory.q_at(k));
+    const auto count = std::size_t(mass.mobility.size());
+    plot.curves.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double mobility = mass.is_infinite[i] ? 0 : mass.mobility(Eigen::Index(i));
+      plot.curves[as_speeds ? count - 1 - i : i].y.push_back(as_speeds ? std::sqrt(mobility) : 1 / mobility);
+    }
+  }
+  const std::vector<std::string> names = numbered(as_speeds ? "v" : "Lambda", int(plot.curves.size()));
+  for (std::size_t i = 0; i < names.size(); ++i) plot.curves[i].name = names[i];
+  return plot;
+}
+
 PlotCurves curves_of(const PlotSet::Plot& plot, const PlotSet& plots, const Simulation& simulation, const Trajectory& trajectory,
                      int samples) {
   const Chain& chain = simulation.chain;
@@ -262,6 +291,9 @@ PlotCurves curves_of(const PlotSet::Plot& plot, const PlotSet& plots, const Simu
       return columns(trajectory.lambda, numbered("lambda", trajectory.rows), samples);
     case PlotQuantity::constraint_error:
       return columns(constraint_errors_along(simulation, trajectory), numbered("phi", trajectory.rows), samples);
+    case PlotQuantity::effective_mass:
+    case PlotQuantity::energy_speed:
+      return tip_axes(simulation, trajectory, samples, plot.quantity == PlotQuantity::energy_speed);
     case PlotQuantity::expression:
       break;
   }
@@ -277,7 +309,9 @@ std::span<const Name> names_of(PlotQuantity) {
                                    {"qd", "of each joint, rad/s or m/s"},
                                    {"tau", "as the run felt them, N m or N"},
                                    {"lambda", "of each row of the constraints"},
-                                   {"constraint_error", "phi, by which each row of the constraints is missed, m or rad"}};
+                                   {"constraint_error", "phi, by which each row of the constraints is missed, m or rad"},
+                                   {"effective_mass", "at the end effector along each axis of its ellipse, kg"},
+                                   {"energy_speed", "along the same axes, at which it has 0.5 J, m/s"}};
   return names;
 }
 

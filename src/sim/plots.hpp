@@ -30,6 +30,8 @@ enum class PlotQuantity {
   tau,         // as the run felt them
   lambda,      // of each row of the constraints
   constraint_error,  // likewise, by how much it is missed
+  effective_mass,    // at the end effector, along each axis of its ellipse, the largest first, kg; infinite at singular poses
+  energy_speed,      // likewise, the speed at which it has 0.5 J, m/s, the largest first
   expression,  // one curve
 };
 
@@ -69,7 +71,7 @@ std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<
 
 struct PlotCurve {
   std::string name;       // "q1", "kinetic"; of an expression ""
-  std::vector<double> y;  // a number a sample
+  std::vector<double> y;  // a number a sample; an effective mass may be infinite
 };
 struct PlotCurves {
   PlotQuantity quantity = PlotQuantity::expression;

@@ -185,7 +185,7 @@ TEST(EllipseAlong, PosesThatLookTheSameAreOne) {
 TEST(EllipseFilm, NumbersStandOnce) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.svg");
-  for (const char* at : {"7.9", "8.1", "8.2", "8.3", "8.5"}) {
+  for (const char* at : {"7.5", "7.56", "7.9", "8.1", "8.2", "8.3", "8.5"}) {
     ASSERT_EQ(run_program({"snapshot", "assets/scenes/rr_ellipse.yaml", "--at", at, "--width", "640", "--height", "360", "--quiet", "--force", "-o", file}).status, 0);
     const std::string svg = text_of(file);
     int numbers = 0;

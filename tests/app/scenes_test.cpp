@@ -190,7 +190,8 @@ TEST(LayoutAuto, TellsTheStoryBesideANarrowMotionAndBelowAFlatOne) {
 }
 
 TEST(LayoutAuto, TakesNothingFromAMotionAndNothingIsToldOfPicturesOfMassesOrWithoutWords) {
-  EXPECT_TRUE(TwoPages("rr_ellipse").is_whole()) << "the ellipse is the story";
+  EXPECT_FALSE(TwoPages("rr_ellipse").is_whole()) << "what its axes measure";
+  EXPECT_TRUE(TwoPages("rr_ellipse", {"draw=[ellipse, mass_matrix]"}).is_whole()) << "the numbers are in the picture";
   EXPECT_TRUE(TwoPages("pp_spring", {"camera.fit=[-1.6, -1, 1.6, 0.8]"}).is_whole()) << "what is asked for fills the page";
   EXPECT_FALSE(TwoPages("pp_spring", {"camera.fit=[-0.5, -1, 0.5, 0.8]"}).is_whole());
   EXPECT_FALSE(TwoPages("pp_spring", {"plot=energy"}).is_whole()) << "the scene's own plot";

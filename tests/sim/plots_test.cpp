@@ -148,6 +148,29 @@ TEST(Plots, EnergyErrorIsTheAudits) {
   EXPECT_GT(std::abs(plots[1].curves[2].y.back() - plots[1].curves[2].y.front()), 0.1);
 }
 
+// RR of unit links and masses: Lambda = diag(1, 2) at a right angle; stretched, nothing moves it along itself.
+TEST(Plots, OfTheEffectiveMassAreTheAxesOfItsEllipse) {
+  constexpr double kRoundOff = 1e-12;
+  Simulation run = pendulum({{"effective_mass", "", {}}, {"energy_speed", "", {}}});
+  const auto first_of = [&](double q2) {
+    run.q0 = {0, q2};
+    run.qd0 = {0, 0};
+    return plot_curves(run, simulate(run, kTimes), int(kTimes.size()));
+  };
+  const auto bent = first_of(M_PI / 2);
+  EXPECT_EQ(bent[0].title, "effective mass [kg]");
+  ASSERT_EQ(bent[0].curves.size(), 2u);
+  EXPECT_EQ(bent[0].curves[0].name, "Lambda1");
+  EXPECT_NEAR(bent[0].curves[0].y[0], 2, kRoundOff) << "the largest first";
+  EXPECT_NEAR(bent[0].curves[1].y[0], 1, kRoundOff);
+  EXPECT_NEAR(bent[1].curves[0].y[0], 1, kRoundOff) << "m v^2 / 2 = 0.5 J";
+  EXPECT_NEAR(bent[1].curves[1].y[0], 1 / std::sqrt(2), kRoundOff);
+  const auto stretched = first_of(0);
+  EXPECT_TRUE(std::isinf(stretched[0].curves[0].y[0])) << "and no large number";
+  EXPECT_TRUE(std::isfinite(stretched[0].curves[1].y[0]));
+  EXPECT_EQ(stretched[1].curves[1].y[0], 0);
+}
+
 TEST(Plots, SayWhatTheyCannotShow) {
   const Chain chain = rr_chain();
   EXPECT_EQ(make_plots(chain, {}, {}), nullptr);

@@ -105,12 +105,6 @@ const std::vector<std::string>& figure_layout_names() {
   return names;
 }
 
-Point last_link(const Skeleton& skeleton, const Workspace& ws, const Camera& camera) {
-  if (skeleton.links.empty()) return {};
-  const LinkSegment& link = skeleton.links.back();
-  return camera.project(pose_of(ws, link.body) * link.to) - camera.project(pose_of(ws, link.body) * link.from);
-}
-
 std::vector<Pose> poses_of(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
                            const PoseFigureOptions& options, Workspace& ws) {
   const Chain& chain = mass.chain();

@@ -6,7 +6,7 @@
 #include "draw/figures/poses.hpp"
 #include "draw/layers/ellipse.hpp"
 #include "draw/page/sheet.hpp"
-#include "draw/robot/skeleton.hpp"
+#include "draw/robot/chain.hpp"
 
 namespace chainreel {
 
@@ -19,9 +19,6 @@ struct Pose {
 };
 std::vector<Pose> poses_of(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
                            const PoseFigureOptions& options, Workspace& ws);
-
-// On the page, after compute_kinematics.
-Point last_link(const Skeleton& skeleton, const Workspace& ws, const Camera& camera);
 
 std::vector<std::vector<double>> configurations_of(const std::vector<Pose>& poses);
 

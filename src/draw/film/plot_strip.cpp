@@ -6,6 +6,7 @@
 
 #include "core/format.hpp"
 #include "picture/thin_points.hpp"
+#include "draw/film/strip_axes.hpp"
 
 namespace chainreel {
 namespace {
@@ -16,13 +17,9 @@ constexpr double kShareBelow = 0.30;  // of the page's height
 constexpr double kMostLabels = 0.4;  // of a plot's width may be taken by the names of its curves
 constexpr double kMostOwnLabels = 0.6;  // ... of the curves of one run, which are named nowhere else
 constexpr double kShareStacked = 0.26, kMostStacked = 0.55;  // of the height: of each plot, and of all
-constexpr double kLongestFrame = 0.05;  // s
 constexpr double kPlotLabelGap = 0.012;
-constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a constant
 constexpr double kConstantSpan = 1e-6, kShareOfConstant = 0.5;  // of its size, of what the eye takes for one; of other plots' height
 constexpr std::size_t kMostOnConstant = 2;  // names of curves that have room beside so low a plot
-constexpr double kRangeAir = 0.06;        // of the range, above and below
-constexpr double kShareOfSteady = 0.35;   // of its size: what changes by less is shown with zero
 constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
 constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
 constexpr double kNoteGap = 0.02;
@@ -30,7 +27,10 @@ constexpr double kStepMark = 0.009;  // units of H, across
 constexpr double kSameEnd = 1e-6;    // of a step: its end
 constexpr double kLeastOfMoved = 0.05;  // of the energy that a motion moves: a drift of a hundredth of it is a fifth of the plot, noise of methods a line
 constexpr double kFlatOfMoved = 2e-3;   // of the same: what the line of a curve covers where the axis has that range
-constexpr double kRoundTime = 0.1;    // s: a clip ends at a multiple that its last frame nearly reaches
+
+bool is_of_ellipse(PlotQuantity quantity) {
+  return quantity == PlotQuantity::effective_mass || quantity == PlotQuantity::energy_speed;
+}
 
 // Curves are told apart by place, or by the run they belong to.
 CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, std::size_t runs,
@@ -45,6 +45,7 @@ CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, 
   if (curve < theme.curve.size()) style.color = theme.curve[curve];
   if (plot.quantity == PlotQuantity::energy && curve + 1 == plot.curves.size())
     return {theme.ink, theme.lines * kTotalLine, Dash::solid, Marker::none};
+  if (is_of_ellipse(plot.quantity)) return {theme.ellipse, style.width, Dash(curve % 4), Marker::none};  // as its axes
   const bool is_of_constraint = plot.quantity == PlotQuantity::lambda || plot.title.find("lambda") != std::string::npos;
   if (is_of_constraint && plot.curves.size() == 1) style.color = theme.constraint;  // as its arrow
   return style;
@@ -75,56 +76,11 @@ std::string title_with_symbol(const PlotCurves& plot) {
 // In comparisons of two the titles bear the colours of their curves.
 std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& run, std::size_t runs) {
   const std::string& own = plot.curves[curve].name;
-  const std::string name = symbol_of(plot.quantity).empty() ? own : "$" + own + "$";
+  const bool is_symbol = !symbol_of(plot.quantity).empty() || is_of_ellipse(plot.quantity);
+  const std::string name = is_symbol ? "$" + own + "$" : own;
   if (runs <= 2) return runs == 1 || plot.curves.size() > 1 ? name : "";
   const std::string& title = run.title;
   return plot.curves.size() > 1 ? name + ", " + title : title;
-}
-
-// Whether a run keeps what another one does not: that they differ is what is to be seen.
-bool runs_differ(const StripData& data, double span) {
-  constexpr double kKept = 0.5;  // of the span of all
-  return data.of_runs && std::ranges::any_of(data.curves, [&](const StripCurve& curve) {
-           if (!curve.decides || curve.points.empty()) return false;
-           const auto [low, high] = std::ranges::minmax_element(curve.points, {}, &Point::y);
-           return high->y - low->y < kKept * span;
-         });
-}
-
-// The range of what decides, or of everything where nothing does.
-Axis value_axis(const StripData& data) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const bool only_deciding : {true, false}) {
-    for (const StripCurve& curve : data.curves) {
-      if (only_deciding && !curve.decides) continue;
-      for (const Point& p : curve.points) {
-        if (!std::isfinite(p.y)) continue;
-        low = std::min(low, p.y);
-        high = std::max(high, p.y);
-      }
-    }
-    if (low <= high) break;
-  }
-  if (!(low <= high)) low = 0, high = 1;
-  const double size = std::max(std::abs(low), std::abs(high));
-  const bool is_constant = high - low <= kLeastSpan * size || size == 0;
-  const double constant = (low + high) / 2;
-  if (is_constant) {
-    const double half = size > 0 ? 0.1 * size : 1;
-    low -= half;
-    high += half;
-  }
-  // What hardly changes is seen to hardly change.
-  const double span = high - low;
-  const bool has_zero = !data.angles && (is_constant || !runs_differ(data, span));
-  if (has_zero && low > 0 && span < kShareOfSteady * high) low = 0;
-  if (has_zero && high < 0 && span < kShareOfSteady * -low) high = 0;
-  if (const double lacks = data.least_span - (high - low); lacks > 0) low -= lacks / 2, high += lacks / 2;
-  const double air = kRangeAir * (high - low);
-  Axis axis{data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title, {}};
-  // Of a constant its number is what is to be read.
-  if (is_constant && size > 0 && !data.angles) axis.at = constant > 0 ? std::vector<double>{0, constant} : std::vector<double>{constant, 0};
-  return axis;
 }
 
 double span_of(const std::vector<double>& y) {
@@ -158,13 +114,6 @@ std::vector<std::string> labels_of(const StripData& data) {
   for (const StripCurve& curve : data.curves)
     if (!curve.label.empty() && !curve.points.empty()) labels.push_back(curve.label);
   return labels;
-}
-
-// Up to the end of the last frame, where that is a round time.
-Axis time_axis(double end) {
-  if (!(end > 0)) end = 1;
-  const double round = kRoundTime * std::ceil(end / kRoundTime - 1e-6);
-  return {Scale::linear, 0, round - end < kLongestFrame ? round : end, "", "s"};
 }
 
 bool ends_step(double t, const StripRun& run) {
@@ -224,8 +173,8 @@ void PlotStrip::draw_static(Picture& picture) const {
   for (const StripCurve& curve : data_.curves) {
     draw_part(picture, frame_, curve, curve.points.size(), *style_.theme, kPale);
     const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [](const Point& p) { return std::isfinite(p.y); });
-    if (curve.label.empty() || last == curve.points.rend()) continue;
-    const Point end = frame_.at(*last);
+    if (curve.label.empty() || curve.points.empty() || (last == curve.points.rend() && !data_.has_poles)) continue;
+    const Point end = last == curve.points.rend() ? Point{frame_.box.x1, frame_.box.y1} : frame_.at(*last);
     // A leader from where a curve leaves the plot would be taken for its way on.
     ends.push_back({{curve.decides ? end.x : frame_.box.x1, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
@@ -276,6 +225,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     data.title = title_with_symbol(plot);
     add_doubts(run, i, data);
     data.angles = plot.angles;
+    data.has_poles = plot.quantity == PlotQuantity::effective_mass;
     // A comparison shows the sum of energies alone.
     const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;
     if (sum_alone && data.least_span == 0) keep_noise_small(data, runs, i);
@@ -287,6 +237,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
       const std::vector<double>& y = shown.curves[c].y;
       const std::vector<double>& t = run.times[i];
       for (std::size_t k = 0; k < std::min(y.size(), t.size()); ++k) curve.points.push_back({t[k], y[k]});
+      if (data.has_poles && !curve.label.empty() && std::ranges::all_of(y, [](double one) { return std::isinf(one); })) curve.label += " = \u221E";
       if (run.step > 0) std::ranges::copy_if(curve.points, std::back_inserter(curve.marks), [&](const Point& p) { return ends_step(p.x, run); });
       data.curves.push_back(std::move(curve));
     }

@@ -23,6 +23,7 @@ struct StripCurve {
 struct StripData {
   std::string title;
   bool angles = false;
+  bool has_poles = false;  // masses, which are infinite at singular poses
   std::vector<StripCurve> curves;
   bool of_runs = false;  // several: a curve is a run's
   double least_span = 0;  // of the numbers' axis: what is told beyond it is noise

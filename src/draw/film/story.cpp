@@ -40,8 +40,12 @@ std::vector<PlotCurves> sprung_coordinates(const Stage& stage, const StagedRun& 
   return plots;
 }
 
-bool shows_masses(const Stage& stage) {
-  return stage.shows("ellipse") || stage.shows("mass_matrix");
+// Of one run, as long as its axes are those of the whole: a section's are told by nothing else.
+Story of_ellipse(const Stage& stage) {
+  const EllipseEntry& ellipse = stage.page.ellipse;
+  const bool is_section = ellipse.shape == EllipseShape::section && !stage.motions.front().chain().planar;
+  if (stage.is_comparison() || is_section) return {};
+  return of_all(stage, ellipse.reading == EllipseReading::energy ? PlotQuantity::energy_speed : PlotQuantity::effective_mass);
 }
 
 bool is_of_method(const SceneEntry& entry) {
@@ -65,7 +69,8 @@ bool differ_in_method_alone(const Stage& stage) {
 
 Story story_of(const Stage& stage) {
   const auto is_told = [](const StagedRun& motion) { return motion.samples() > 1 && motion.simulation() != nullptr; };
-  if (!std::all_of(stage.motions.begin(), stage.motions.end(), is_told) || is_transparent(stage.page) || shows_masses(stage)) return {};
+  if (!std::all_of(stage.motions.begin(), stage.motions.end(), is_told) || is_transparent(stage.page) || stage.shows("mass_matrix")) return {};
+  if (stage.shows("ellipse")) return of_ellipse(stage);
   if (differ_in_method_alone(stage)) return of_all(stage, PlotQuantity::energy_error);
   const StagedRun& first = stage.motions.front();
   const auto is_constrained = [](const StagedRun& motion) { return motion.trajectory().rows > 0; };

@@ -11,8 +11,8 @@
 // zero to within kSingularFraction of the largest, as singular_directions has it, no acceleration is possible along
 // that direction: there, and nowhere else, `mass` is open, two lines along the bounded width that fade towards the
 // edge of the scene, with an infinity sign at each end, and so are the ends of `belt`; `energy` shrinks to a segment.
-// A curve that leaves the scene fades towards the edge, too, the sooner the further it leads out; an axis that leaves it at
-// both of its ends has its length written at them ("7.91 kg"). The inside lies below the chain, the lines over it with
+// A curve that leaves the scene fades towards the edge, too, the sooner the further it leads out; an axis of a figure that leaves it at
+// both of its ends has its length written at them ("7.91 kg"), one of a film in the plane at its outer end as soon as that has left it. The inside lies below the chain, the lines over it with
 // edges in the background's colour, so that they are seen on any link. In space the ellipse drawn is the silhouette of
 // the ellipsoid, with its three principal ellipses (draw/layers/ellipsoid).
 #pragma once
@@ -101,7 +101,7 @@ struct EllipseStyle {
   EllipsePart part = EllipsePart::whole;
   Hides hides = nullptr;  // of a robot in space
   double hole = 0;        // units of H: axes begin at the end of the link about the middle, whose outline they would cut
-  Point outward{};        // of figures: away from the link that the middle is an end of; numbers of axes along it stand at their outer ends
+  Point outward{};        // away from the link that the middle is an end of; numbers stand at the outer ends of axes along it in figures, of axes that are cut in films
   bool is_filled = true;  // not where several lie over one another
   double disc = 0;        // units of H; above 0: what is seen of the curve lies in this circle about its middle
   bool dashed_cut = false;  // where it is cut there, it says so

@@ -67,6 +67,7 @@ class MassAlong {
     const Eigen::Vector3d tip = tip_position(panel.chain(), ws);
     if (panel.motion().shapes() && body() == EllipseBody::solid)
       style.hides = robot_hides(*panel.motion().shapes(), ws, panel.camera(), tip);
+    style.outward = last_link(panel.motion().skeleton(), ws, panel.camera());
     draw_mass_ellipse(picture, axes_at(panel.motion(), k), panel.tip().place(k), panel.camera().seen_at(tip),
                       style, panel.clip());
   }

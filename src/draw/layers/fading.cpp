@@ -225,6 +225,7 @@ void draw_axis(Picture& picture, Point center, Point v, bool dashed, double widt
 namespace {
 
 constexpr double kSignAir = 0.008;       // units of H: about a sign
+constexpr double kCutHead = 0.018, kCutHeadWidth = 0.014;  // units of H: of an axis that goes on beyond the scene
 constexpr double kAppearing = 0.02;  // units of H: an axis that leads out by so much has its length in full strength
 
 // The text's ink with its middle as near to `at` as the scene allows.
@@ -278,6 +279,20 @@ double strength_of_length(Point center, Point v, const EllipseStyle& style) {
   return style.signs ? std::min(1.0, excess_of(style.scene, center, v) / kAppearing) : 0;
 }
 
+// Where the axis of a film in the plane leaves the scene. Of its two ends the outer one counts, or where there is no link its own first.
+struct CutEnd {
+  Point d;                   // unit, from the middle
+  double way = 0;            // until the edge
+  double strength = 0;       // of what is said there, 0 where the end is inside
+};
+
+CutEnd cut_end(Point center, Point v, const EllipseStyle& style) {
+  if (!has_one_place(style) || style.hides || !style.signs || !(norm(v) > kNoLength)) return {};
+  const Point d = dot(v, style.outward) < 0 ? -1 * unit(v) : unit(v);
+  const double way = way_out(style.scene, center, d);
+  return {d, way, std::clamp((norm(v) - way) / kAppearing, 0.0, 1.0)};
+}
+
 TextLine text_of_length(double length, double strength, const EllipseStyle& style) {
   const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg";
   return lay_out_text(*style.fonts, format_digits(length, 3) + unit,
@@ -290,13 +305,27 @@ TextLine infinity(const EllipseStyle& style) {
                       {Face::label, size::kSymbol * style.text_scale, style.theme->ellipse, Align::left});
 }
 
-Fade fade_before(const TextLine& text, double strength, Point d, Fade fade) {
-  const double taken = strength * (2 * half_along(text, d) + kSignAir);
+// At both ends, or at that along d alone. `more`: units of H, beside the text.
+Fade fade_before(const TextLine& text, double strength, Point d, Fade fade, bool one_end = false, double more = 0) {
+  const double taken = strength * (2 * half_along(text, d) + kSignAir + more);
   // Only towards edges that the axis leaves through; one that it nearly misses comes in gradually.
-  const auto room = [&](double stretch, double along) { return std::min(taken * std::abs(along), 4 * stretch); };
-  fade.scene = {fade.scene.x0 + room(fade.left, d.x), fade.scene.y0 + room(fade.bottom, d.y),
+  const auto room = [&](double stretch, double along) { return std::min(taken * (one_end ? std::max(0.0, along) : std::abs(along)), 4 * stretch); };
+  fade.scene = {fade.scene.x0 + room(fade.left, -d.x), fade.scene.y0 + room(fade.bottom, -d.y),
                 fade.scene.x1 - room(fade.right, d.x), fade.scene.y1 - room(fade.top, d.y)};
   return fade;
+}
+
+// What moves with its axis needs no plan of words: it is there at every frame.
+void draw_at_cut(Picture& picture, double length, Point center, const CutEnd& end, const EllipseStyle& style, int clip) {
+  const TextLine text = text_of_length(length, end.strength, style);
+  const double half = half_along(text, end.d), nearest = std::max(style.hole, size::kEndEffector) + kSignAir + half;
+  const Rect box = box_near(text, center + std::max(end.way - kCutHead - kSignAir - half, nearest) * end.d, style.scene);
+  const Point anchor{box.x0 - text.box.x0, box.y0 - text.box.y0};
+  draw_halo(picture, text, anchor, style.theme->background.faded(end.strength), kWordHalo, clip);
+  draw_text(picture, text, anchor, clip);
+  const Point tip = center + end.way * end.d, back = tip - kCutHead * end.d, side = kCutHeadWidth / 2 * normal_to(end.d);
+  Polygon head{{tip, back + side, back - side}, 3, {style.theme->ellipse.faded(end.strength), {}, 0}};
+  picture.add(head, clip);
 }
 
 // Where the number of an axis may stand about those of its ends, the best first, and its line.
@@ -360,6 +389,7 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 
 void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
                  std::span<const Point> others) {
+  if (const CutEnd end = cut_end(center, v, style); end.strength > 0) return draw_at_cut(picture, length, center, end, style, clip);
   const bool has_no_numbers = style.labels == nullptr && style.unnamed != nullptr;  // a figure with panels too small for them
   const double strength = strength_of_length(center, v, style);
   if (strength > 0 && !has_no_numbers && !has_one_place(style))
@@ -400,6 +430,8 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
 }
 
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style) {
+  if (const CutEnd end = cut_end(center, v, style); end.strength > 0)
+    return fade_before(text_of_length(length, end.strength, style), end.strength, end.d, whole, true, kCutHead + kSignAir);
   const double strength = strength_of_length(center, v, style);
   if (!(strength > 0) || has_one_place(style)) return whole;
   return fade_before(text_of_length(length, strength, style), strength, unit(v), whole);

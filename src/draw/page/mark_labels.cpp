@@ -7,7 +7,6 @@
 namespace chainreel {
 namespace {
 
-constexpr double kHalo = 0.0035;         // about the letters, units of H
 constexpr double kBetweenLabels = 0.008;        // between two labels, units of H
 constexpr int kRounds = 80;
 constexpr std::size_t kCrowd = 60;  // labels; pushing more apart takes longer than drawing them
@@ -145,7 +144,7 @@ void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color 
     picture.add(Capsule{from, leader.to, kLeaderWidth / 2 + kTieHalo, {halo, {}, 0}}, clip);
     picture.add(Capsule{from, leader.to, kLeaderWidth / 2, {color, {}, 0}}, clip);
   }
-  picture.add(Ellipse{leader.to, {kLeaderDot, 0}, {0, kLeaderDot}, {color, halo, kHalo}}, clip);
+  picture.add(Ellipse{leader.to, {kLeaderDot, 0}, {0, kLeaderDot}, {color, halo, kWordHalo}}, clip);
 }
 
 void draw_tie(Picture& picture, const Tie& tie, const Rect& box, Color background, double opacity, int clip) {
@@ -203,7 +202,7 @@ void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int 
     const Point anchor{box.x0 - line.box.x0, box.y0 - line.box.y0};
     if (words_[i].leader) draw_leader(picture, *words_[i].leader, box, background, opacity, clip);
     if (words_[i].tie) draw_tie(picture, *words_[i].tie, box, background, opacity, clip);
-    draw_halo(picture, line, anchor, background.faded(opacity), kHalo, clip);
+    draw_halo(picture, line, anchor, background.faded(opacity), kWordHalo, clip);
     draw_text(picture, line, anchor, clip);
   }
 }

@@ -13,6 +13,8 @@
 
 namespace chainreel {
 
+inline constexpr double kWordHalo = 0.0035;  // about the letters, units of H
+
 // A line from a word to what it speaks of.
 struct Leader {
   Point to;

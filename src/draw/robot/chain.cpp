@@ -301,6 +301,12 @@ Vector3d tip_position(const Chain& chain, const Workspace& ws) {
   return frame_position(chain, ws, chain.end_effector);
 }
 
+Point last_link(const Skeleton& skeleton, const Workspace& ws, const Camera& camera) {
+  if (skeleton.links.empty()) return {};
+  const LinkSegment& link = skeleton.links.back();
+  return camera.project(pose_of(ws, link.body) * link.to) - camera.project(pose_of(ws, link.body) * link.from);
+}
+
 Eigen::Matrix<double, 3, 2> tip_plane(const Chain& chain, const Workspace& ws) {
   const Frame& tip = chain.frames[std::size_t(chain.end_effector)];
   return (pose_of(ws, tip.body).linear() * tip.X_BF.linear()).leftCols<2>();

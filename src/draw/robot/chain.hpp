@@ -44,6 +44,8 @@ bool hangs_on_root(const Chain& chain, const Skeleton& skeleton, const Body& bod
 
 // World position of the end effector after compute_kinematics.
 Eigen::Vector3d tip_position(const Chain& chain, const Workspace& ws);
+// On the page, from the last link's joint to its end.
+Point last_link(const Skeleton& skeleton, const Workspace& ws, const Camera& camera);
 // The centre of mass of the whole chain after compute_kinematics; the origin where nothing has mass.
 Eigen::Vector3d center_of_mass(const Chain& chain, const Workspace& ws);
 // ... and the x and y axes of its frame in W.

@@ -49,15 +49,18 @@ void Probe::set(const Chain& chain, Workspace& ws, double t, ConstVec q, ConstVe
   for (const NamedFrame& frame : frames_) write(frame.frame);
 }
 
-void require_frame_of(const Chain& chain, const Probe& probe, int slot, const Place& place) {
-  // No other frame may be called G.
-  const std::string& name = probe.names()[std::size_t(slot)];
-  if (chain.end_effector >= 0 || !probe.is_kinematic(slot) || !name.ends_with("_G")) return;
+void require_tip_for(const Chain& chain, const std::string& what, const Place& place) {
   try {
     require_end_effector(chain);
   } catch (const Error& error) {
-    throw Error(error.code(), name + " is of the end effector: " + error.problems().front().message, place);
+    throw Error(error.code(), what + " is of the end effector: " + error.problems().front().message, place);
   }
+}
+
+void require_frame_of(const Chain& chain, const Probe& probe, int slot, const Place& place) {
+  // No other frame may be called G.
+  const std::string& name = probe.names()[std::size_t(slot)];
+  if (probe.is_kinematic(slot) && name.ends_with("_G")) require_tip_for(chain, name, place);
 }
 
 }  // namespace chainreel

@@ -65,7 +65,9 @@ class Probe {
   int rows_ = 0;
 };
 
-// Throws Error (bad input) where the slot of the probe is x_G or another of the end effector and the chain has none.
+// Throws Error (bad input) where the chain has no end effector, of which `what` is.
+void require_tip_for(const Chain& chain, const std::string& what, const Place& place);
+// The same where the slot of the probe is x_G or another of the end effector.
 void require_frame_of(const Chain& chain, const Probe& probe, int slot, const Place& place);
 
 }  // namespace chainreel

@@ -105,6 +105,40 @@ TEST(PlotStrip, MarksLongStepsAndWhatIsNotAccurate) {
   EXPECT_EQ(zones(drawn(run)), 0u) << "to the end of the clip";
 }
 
+// A mass that passes a pole between two samples leaves the plot below what these have, which is as high as chance has it; one without is whole.
+TEST(PlotStrip, MassesLeaveThePlotAtTheirPoles) {
+  const Fonts fonts;
+  const auto strip = [&](double pole) {
+    std::vector<double> longer, shorter;
+    for (int k = 0; k <= 200; ++k) longer.push_back(1 + 1e4 / ((k - pole) * (k - pole))), shorter.push_back(1);
+    StripRun run = run_of("a", false, longer);
+    run.plots[0].quantity = PlotQuantity::effective_mass;
+    run.plots[0].curves = {{"Lambda1", longer}, {"Lambda2", shorter}};
+    return PlotStrip(strip_data({run}, 0, 200, light_theme()), kStripArea, style_of(fonts));
+  };
+  const Axis cut = strip(100.3).frame().y, whole = strip(-150).frame().y;
+  EXPECT_EQ(cut.scale, Scale::log);
+  EXPECT_LT(cut.high, 1e4 / (1.3 * 1.3));
+  EXPECT_GT(cut.high, 1e4 / (6 * 6.0));
+  EXPECT_EQ(whole.scale, Scale::linear) << "less than two decades";
+  Picture picture;
+  strip(100.3).draw_static(picture);
+  EXPECT_TRUE(test::all_finite(picture));
+  EXPECT_GT(right_end(picture, light_theme().ellipse.faded(0.45)), kStripArea.x0) << "as the axes of the ellipse";
+}
+
+// Of a mass that is infinite all along there is no curve, but that is said.
+TEST(PlotStrip, SaysThatAMassIsInfinite) {
+  const Fonts fonts;
+  StripRun run = run_of("a", false, {});
+  run.times = {{0, 1, 2}};
+  run.plots[0].quantity = PlotQuantity::effective_mass;
+  run.plots[0].curves = {{"Lambda1", {HUGE_VAL, HUGE_VAL, HUGE_VAL}}, {"Lambda2", {1, 1, 1}}};
+  Picture picture;
+  PlotStrip(strip_data({run}, 0, 2, light_theme()), kStripArea, style_of(fonts)).draw_static(picture);
+  EXPECT_NE(test::words_of(picture).find("\u221E"), std::string::npos);
+}
+
 // A motion of 10 J: what its sum of energies does within a method's noise is a line, a hundredth of what moves is a drift.
 TEST(PlotStrip, NoiseOfAnEnergyThatIsKeptIsNoCurve) {
   const Fonts fonts;

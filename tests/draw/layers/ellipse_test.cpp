@@ -14,6 +14,7 @@
 #include "draw/layers/body_obstacles.hpp"
 #include "draw/layers/fading.hpp"
 #include "draw/layers/ellipsoid.hpp"
+#include "draw/page/mark_labels.hpp"
 #include "draw/shapes.hpp"
 #include "dynamics/kinematics.hpp"
 
@@ -197,6 +198,32 @@ TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
                     {&light_theme(), &fonts(), 1, 0.8424, {0.045, 0.11, 1.73, 0.87}}, -1);
   EXPECT_EQ(test::all_of<Ellipse>(whole).size(), 1u);
   EXPECT_EQ(test::words_of(whole), "");
+}
+
+// In films the number stands on the axis where its outer end leaves the scene, from the first frame on and without a jump; the other end decides nothing.
+TEST(Ellipse, OfAFilmHasTheNumberOfACutAxisWhereItLeaves) {
+  for (const double outward : {1.0, -1.0}) {
+    Point before{};
+    for (const double length : {0.3, 0.35, 0.45, 0.9, 5.0}) {
+      // 0.37 to the lower edge, as far as the upper one.
+      const Point middle{0.8, 0.49};
+      MarkLabels labels;
+      EllipseStyle style{&light_theme(), &fonts(), 1, length, {0.045, 0.12, 1.73, 0.86}};
+      style.labels = &labels;
+      style.outward = {0, outward};
+      Picture picture;
+      draw_mass_ellipse(picture, {{1, Eigen::Vector3d::UnitY()}, {0.1, Eigen::Vector3d::UnitX()}}, middle, {}, style, -1);
+      const bool is_cut = length > 0.37;
+      const auto numbers = test::all_of<GlyphRun>(picture, [](const GlyphRun& run) { return run.stroke_width == 0; });
+      ASSERT_EQ(numbers.size(), is_cut ? 1u : 0u) << length;
+      EXPECT_EQ(labels.words().size(), is_cut ? 1u : 2u) << "else it is a word of the plan";
+      if (!is_cut) continue;
+      EXPECT_EQ(numbers[0].text, "1.00 kg");
+      EXPECT_GT(outward * (numbers[0].origin.y - middle.y), 0.2);
+      if (length > 0.5) EXPECT_LT(norm(numbers[0].origin - before), 1e-12) << "it stays there";
+      before = numbers[0].origin;
+    }
+  }
 }
 
 // The tip near an edge: the major axis leaves there, its other end shows its length.
