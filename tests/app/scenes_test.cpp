@@ -189,6 +189,19 @@ TEST(LayoutAuto, TellsTheStoryBesideANarrowMotionAndBelowAFlatOne) {
   EXPECT_GE(flat.kept, 0.9);
 }
 
+// Panels of a motion that is narrow are as tall as the page, and their plot stands beside them; those of a wide one keep it below.
+TEST(LayoutCompare, HasThePlotBesidePanelsOfANarrowMotion) {
+  const auto area_of = [](const std::vector<std::string>& more) {
+    const PreparedFilm film = load_film("assets/scenes/big_steps.yaml", more);
+    const Runs runs(film);
+    return runs.pictures(runs.clock().frame_count(), Fonts()).scene_area();
+  };
+  const Rect narrow = area_of({}), wide = area_of({"camera.fit=[-2, -0.5, 2, 0.5]"}), upright = area_of({"video.width=1080", "video.height=1920"});
+  EXPECT_GT(narrow.height(), 1.5 * wide.height());
+  EXPECT_LT(narrow.width(), 0.65 * wide.width());
+  EXPECT_GT(upright.width(), 0.8 * 1080 / 1920.0) << "no page for plots beside anything";
+}
+
 TEST(LayoutAuto, TakesNothingFromAMotionAndNothingIsToldOfPicturesOfMassesOrWithoutWords) {
   EXPECT_FALSE(TwoPages("rr_ellipse").is_whole()) << "what its axes measure";
   EXPECT_TRUE(TwoPages("rr_ellipse", {"draw=[ellipse, mass_matrix]"}).is_whole()) << "the numbers are in the picture";

@@ -20,9 +20,20 @@ namespace {
 constexpr double kSameInstant = 1e-9;  // s
 }
 
+namespace {
+
+// As films have it: curves go on to the end of the last frame.
+std::vector<double> with_end_of_motion(std::vector<double> times, const PreparedFilm& film) {
+  if (const double end = plain_times(film).back(); end > times.back()) times.push_back(end);
+  return times;
+}
+
+}  // namespace
+
 // A film with its pictures, as far as they are asked for.
 struct Moments::State {
   const PreparedFilm& film;
+  int frames;
   Runs runs;
   Film pictures;
   FilmReport report;
@@ -31,7 +42,8 @@ struct Moments::State {
 
   State(const PreparedFilm& of, FilmClock clock, Instants instants, const Fonts& fonts)
       : film(of),
-        runs(film, std::move(clock), std::move(instants.times)),
+        frames(int(instants.times.size())),
+        runs(film, std::move(clock), with_end_of_motion(std::move(instants.times), film)),
         pictures(runs.pictures(frames_drawn(instants.frames.front()), fonts)),
         report(film_report(runs, pictures, frames_of_film(runs, instants.added))) {
     report.writes = Writes::pictures;
@@ -42,8 +54,7 @@ struct Moments::State {
   // Those that every run shows that must come to its end.
   int frames_drawn(int frame) const {
     runs.require_expected_ends(frame);
-    const int all = int(runs.times().size());
-    return runs.size() == 1 && film.scene.expect != Outcome::diverge ? std::min(all, runs[0].size()) : all;
+    return runs.size() == 1 && film.scene.expect != Outcome::diverge ? std::min(frames, runs[0].size()) : frames;
   }
 
   Moment moment(int frame) const {

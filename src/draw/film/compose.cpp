@@ -1,6 +1,7 @@
 #include "draw/film/compose.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/error.hpp"
 #include "draw/film/room.hpp"
@@ -14,6 +15,9 @@ constexpr double kWidestPlots = 0.62;  // of the page's width
 constexpr double kKeptBeside = 0.12;   // units of H, of the scene for words and the arrow of gravity
 constexpr double kPlotsOfSpare = 0.6;  // ... of the height that a motion leaves, for plots below it
 constexpr double kHighestPlots = 0.34;
+constexpr double kNarrowMotion = 0.5;  // of its height
+constexpr double kNarrowestPlots = 0.3;  // of the page's width, beside panels
+constexpr double kTitleAir = 1.1;      // times the least width of a panel's title
 constexpr double kWorthwhile = 0.02;   // ... of the width
 constexpr double kLeastOfWidth = 0.6;  // pages still narrower keep the words of this one
 
@@ -76,10 +80,34 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
   }
 }
 
+// Panels of a narrow motion, beside one another, stand beside their plots where they are no smaller there, each as wide as its motion and its title are.
+std::optional<Composition> with_plots_beside_panels(const Scene& page, const Shown& film, const Story& story, const Composition& below) {
+  const Point used = below.view.size_used();
+  const bool may_stand = below.stage->has_cells() && page.layout == PageLayout::compare && !below.sheet.plots.empty() && !is_narrow(page) &&
+                         !(page.video.least_text > 0) && used.x < kNarrowMotion * used.y;
+  if (!may_stand) return std::nullopt;
+  try {
+    PlotRoom room;
+    room.beside_panels = true;
+    const Composition first = with_readable_words(page, film, story, room);
+    const double count = double(first.view.cells.size());
+    const double panel = std::max(first.view.size_used().x + kKeptBeside, kTitleAir * first.sheet.widest_title(*first.stage));
+    const double spare = first.sheet.sheet.scene.width() - count * panel - (count - 1) * size::kGutter;
+    room.beside = std::clamp(kPlotsBeside + spare / first.sheet.sheet.aspect, kNarrowestPlots, kWidestPlots);
+    Composition beside = with_readable_words(page, film, story, room);
+    const bool is_as_good = beside.left_out == below.left_out && beside.view.camera.scale >= below.view.camera.scale && lack_of_room(beside).what.empty();
+    if (is_as_good) return beside;
+  } catch (const Error& error) {
+    if (!tells_of_no_room(error)) throw;
+  }
+  return std::nullopt;
+}
+
 // Plots beside a narrow motion have the width that it leaves; those below a flat one, on pages that are narrow, of its height.
 Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story) {
   Composition usual = with_readable_words(page, film, story);
   if (page.camera.fit) return usual;
+  if (std::optional<Composition> beside = with_plots_beside_panels(page, film, story, usual)) return std::move(*beside);
   const Rect& scene = usual.sheet.sheet.scene;
   PlotRoom room;
   if (usual.sheet.has_plots_beside) {

@@ -36,6 +36,7 @@ struct Composition {
 //
 // With layout `auto` a plot stands beside the scene, else below it, where the motion keeps kLeastKept of its size and no further
 // layer goes: the scene's only plot, or the story that it has (draw/film/story).
+// In layout `compare` plots stand beside the panels of a motion that is at most half as wide as high, where these are no smaller for it.
 // Comparisons have theirs on pages that are narrow, and those that lie over one another on all, where it costs next to nothing; those
 // of methods, which look alike, where kLeastKeptOfMethods is kept.
 inline constexpr double kLeastScene = 0.45;

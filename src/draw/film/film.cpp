@@ -1,6 +1,9 @@
 #include "draw/film/film.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "draw/page/arrow.hpp"
 #include "draw/page/scales.hpp"
@@ -14,6 +17,15 @@ constexpr double kNotePitch = 1.35;  // of the em
 std::vector<double> first_times(const Trajectory& trajectory, int frames) {
   const auto count = std::size_t(std::clamp(frames, 0, trajectory.size()));
   return {trajectory.t.begin(), trajectory.t.begin() + std::ptrdiff_t(count)};
+}
+
+// A note in two lines: an event each, or, of one that is too long for one, how far away its run has been in the second.
+std::optional<std::pair<std::string, std::string>> broken_note(const std::string& note, bool is_long) {
+  if (const std::size_t end = note.find(kBetweenEvents); end != std::string::npos)
+    return std::pair{note.substr(0, end), note.substr(end + std::string_view(kBetweenEvents).size())};
+  const std::size_t end = note.find(kBeforeAway);
+  if (!is_long || end == std::string::npos) return std::nullopt;
+  return std::pair{note.substr(0, end + 1), note.substr(end + 2)};
 }
 
 // Rails are as long as those of runs that are drawn over them, and one machine beside itself has rails of one length.
@@ -174,11 +186,12 @@ void Film::draw_notes(Picture& picture, int k) const {
     const double pitch = kNotePitch * style.size;
     for (const int events : {2, 1, 0}) {
       const std::string note = whose + panels_[i].note(k, events);
-      if (const std::size_t end = note.find(kBetweenEvents); end != std::string::npos && row.height() > 1.5 * pitch) {
-        const TextLine first = fit_text(stage_->fonts, note.substr(0, end), style, row.width(), text_scale);
+      const double full = lay_out_text(stage_->fonts, note, style).advance;
+      if (const auto broken = broken_note(note, full > row.width()); broken && row.height() > 1.5 * pitch) {
+        const TextLine first = fit_text(stage_->fonts, broken->first, style, row.width(), text_scale);
         if (first.advance > row.width() + kRoundOff) continue;
         draw_text(picture, first, {row.x0, row.y0 + kTitleDescent * style.size + pitch});
-        line = fit_text(stage_->fonts, note.substr(end + std::string_view(kBetweenEvents).size()), style, row.width(), text_scale);
+        line = fit_text(stage_->fonts, broken->second, style, row.width(), text_scale);
       } else {
         line = fit_text(stage_->fonts, note, style, row.width(), text_scale);
       }

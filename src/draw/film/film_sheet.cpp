@@ -132,7 +132,7 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& stor
     key.emplace(stage, sheet.scene.width());
     rows.title = key->height();
   }
-  if (has_notes(stage)) rows.note = (is_narrow(page) && !stage.is_ghost() ? 2 : 1) * kTitleRow * scaled(size::kAxis, page.text_scale);
+  if (has_notes(stage)) rows.note = ((is_narrow(page) || (has_plots_beside && stage.has_cells())) && !stage.is_ghost() ? 2 : 1) * kTitleRow * scaled(size::kAxis, page.text_scale);
 }
 
 // On paper, where the page is as high as it must be.
@@ -140,22 +140,25 @@ double least_plot(const Scene& page) {
   return page.video.least_text > 0 ? kPlotInWords * scaled(kSmallestText, page.text_scale) : 0;
 }
 
-// One plot below the scene, more beside it, unless the layout says otherwise; below several panels. What the scene did not ask for
-// stands beside runs that lie over one another.
+// One plot below the scene, more beside it, unless the layout says otherwise; below several panels, or beside those of a narrow motion. What the scene
+// did not ask for stands beside runs that lie over one another.
 void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, const PlotRoom& room) {
   const Scene& page = stage.page;
   std::vector<StripRun> runs;
   for (std::size_t i = 0; i < stage.motions.size(); ++i)
     runs.push_back(strip_run(stage.motions[i], story.empty() ? std::vector<PlotCurves>() : story[i]));
   const int count = int(story.empty() ? page.plot.size() : story.front().size());
-  const bool right = stage.is_ghost() ? !story.empty()
-                                      : !stage.is_comparison() && page.layout != PageLayout::scene_below &&
-                                            (count > 1 || page.layout == PageLayout::scene_right);
+  const bool right = stage.is_ghost()        ? !story.empty()
+                     : stage.is_comparison() ? room.beside_panels
+                                             : page.layout != PageLayout::scene_below && (count > 1 || page.layout == PageLayout::scene_right);
   const PlotPlace place = is_narrow(page) ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
+  double end = stage.times.back();
+  for (const StagedRun& motion : stage.motions)
+    if (const int samples = motion.curve_samples(); samples > 0) end = std::max(end, motion.curve_run().t[std::size_t(samples) - 1]);
   std::vector<StripData> data;
   std::vector<double> shares;
   for (int i = 0; i < count; ++i) {
-    data.push_back(strip_data(runs, std::size_t(i), stage.times.back(), stage.theme));
+    data.push_back(strip_data(runs, std::size_t(i), end, stage.theme));
     shares.push_back(share_of_height(data.back()));
   }
   if (page.video.least_text > 0) shares.clear();  // each has a least height there

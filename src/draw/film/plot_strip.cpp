@@ -5,8 +5,9 @@
 #include <iterator>
 
 #include "core/format.hpp"
-#include "picture/thin_points.hpp"
 #include "draw/film/strip_axes.hpp"
+#include "picture/point.hpp"
+#include "picture/thin_points.hpp"
 
 namespace chainreel {
 namespace {
@@ -122,6 +123,35 @@ bool ends_step(double t, const StripRun& run) {
   return std::abs(t - run.step * std::round(t / run.step)) <= same || (next != run.breaks.end() && *next <= t + same);
 }
 
+// Of a run that went wild the first point that its plot does not hold.
+std::vector<Point>::const_iterator leaves_at(const StripCurve& curve, const Axis& y) {
+  if (curve.decides) return curve.points.end();
+  return std::ranges::find_if(curve.points, [&](const Point& p) { return p.y < y.low || p.y > y.high; });
+}
+
+// The largest number that it has shows what the axis does not: "to 7\u00D710\u2078 m", with the unit of the title.
+void say_where_it_goes(StripCurve& curve, const Axis& y, const std::string& title) {
+  if (leaves_at(curve, y) == curve.points.end()) return;
+  double most = 0;
+  for (const Point& p : curve.points)
+    if (std::isfinite(p.y)) most = std::max(most, std::abs(p.y));
+  const std::size_t unit = title.find_last_of('[');
+  const std::string in_units = unit != std::string::npos && title.ends_with("]") ? " " + title.substr(unit + 1, title.size() - unit - 2) : "";
+  curve.label += (curve.label.empty() ? "to " : ", to ") + format_power(most) + in_units;
+}
+
+// Where a curve leaves the frame for good it goes on.
+void draw_going_on(Picture& picture, const PlotFrame& frame, const StripCurve& curve, Color color) {
+  constexpr double kHead = 0.018, kWidth = 0.016;  // units of H
+  if (curve.decides || curve.points.size() < 2) return;
+  Point from = frame.at(curve.points[curve.points.size() - 2]), to = frame.at(curve.points.back());
+  const Point ahead = unit(to - from);
+  if (frame.box.y0 <= to.y && to.y <= frame.box.y1) return;
+  if (!cut_segment(frame.box, from, to)) return;
+  const Point back = to - kHead * ahead, side = kWidth / 2 * normal_to(ahead);
+  picture.add(Polygon{{to, back + side, back - side}, 3, {color, {}, 0}});
+}
+
 // The first `count` points, and where steps end.
 void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve, std::size_t count, const Theme& theme, double opacity) {
   const std::span points = std::span(curve.points).first(count);
@@ -132,6 +162,7 @@ void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve
   CurveStyle style = curve.style;
   style.color = style.color.faded(opacity);
   draw_curve(picture, frame, path, style, theme);
+  if (count == curve.points.size()) draw_going_on(picture, frame, curve, style.color);
   for (const Point& p : curve.marks)
     if (!points.empty() && p.x <= points.back().x && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
       draw_marker(picture, frame.at(p), Marker::disc, kStepMark, style.color, theme.background);
@@ -141,6 +172,8 @@ void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve
 
 PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     : data_(std::move(data)), area_(area), style_(style) {
+  Axis values = value_axis(data_);
+  for (StripCurve& curve : data_.curves) say_where_it_goes(curve, values, data_.title);
   std::vector<std::string> labels = labels_of(data_);
   // The names of runs stand above their panels, too, in the colours of the curves.
   const double most = data_.of_runs ? kMostLabels : kMostOwnLabels;
@@ -153,13 +186,12 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
   if (!data_.constancy.empty()) {
     const std::string said = data_.title + ", " + data_.constancy;
     const TextStyle words{Face::label, style_.text(size::kAxis), style_.theme->ink, Align::left};
-    if (lay_out_words(*style_.fonts, said, words).advance <= inner.width()) data_.title = said;
+    if (lay_out_words(*style_.fonts, said, words).advance <= inner.width()) values.title = data_.title = said;
   }
-  frame_ = lay_out_plot(inner, time_axis(data_.end), value_axis(data_), style_);
+  frame_ = lay_out_plot(inner, time_axis(data_.end), values, style_);
   // What a run that went wild does behind the point where it leaves the plot is no motion.
   for (StripCurve& curve : data_.curves) {
-    if (curve.decides) continue;
-    const auto out = std::ranges::find_if(curve.points, [&](const Point& p) { return p.y < frame_.y.low || p.y > frame_.y.high; });
+    const auto out = leaves_at(curve, frame_.y);
     if (out != curve.points.end()) curve.points.erase(out + 1, curve.points.end());
   }
   for (StripCurve& curve : data_.curves) curve.shown = thin_points(frame_, curve.points);

@@ -78,9 +78,11 @@ struct PlotAreas {
 // their room from the scene, not from the plots below it. `beside`: share of the width of plots beside the scene. `least_each`: height of a
 // plot below the scene with its words, where the room allows.
 inline constexpr double kPlotsBeside = 0.38;
-// What a motion leaves to plots: that share, and a height in units of H for each where they stand above one another.
+// What a motion leaves to plots: that share, and a height in units of H for each where they stand above one another; and whether those of
+// several panels stand beside these.
 struct PlotRoom {
   double beside = kPlotsBeside, each = 0;
+  bool beside_panels = false;
 };
 // `shares`: of the height that plots above one another share, one each; none: alike.
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below = 0, double text_scale = 1,

@@ -162,7 +162,7 @@ std::string Panel::away_note(int k) const {
     farthest_by_.push_back(there > before || std::isnan(there) ? there : before);
   }
   const double away = farthest_by_[std::size_t(k - last_ - 1)], height = area().height() / camera().scale;
-  return std::isfinite(away) && away > kFar * height ? ", up to " + format_power(away) + " m away" : "";
+  return std::isfinite(away) && away > kFar * height ? kBeforeAway + format_power(away) + " m away" : "";
 }
 
 }  // namespace chainreel

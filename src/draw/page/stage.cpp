@@ -60,9 +60,11 @@ StagedRun::StagedRun(const PanelRun& run, int samples, bool counts, bool freezes
 }
 
 int StagedRun::curve_samples() const {
-  if (samples_ == 0 || !run_.trajectory.between) return samples_;
-  const std::vector<double>& t = curve_run().t;
-  return int(std::upper_bound(t.begin(), t.end(), run_.trajectory.t[std::size_t(samples_) - 1]) - t.begin());
+  if (samples_ == 0) return samples_;
+  constexpr double kSameEnd = 1e-6;  // of a frame: sums of frames are no exact multiples
+  const std::vector<double>&frames = run_.trajectory.t, &t = curve_run().t;
+  const double last = frames[std::size_t(samples_) - 1], frame = samples_ > 1 ? last - frames[std::size_t(samples_) - 2] : 0;
+  return int(std::upper_bound(t.begin(), t.end(), last + (1 + kSameEnd) * frame) - t.begin());
 }
 
 bool StagedRun::is_wild() const {

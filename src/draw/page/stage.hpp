@@ -70,7 +70,7 @@ class StagedRun {
   bool is_outlined() const { return variant_ && variant_->outlined; }
 
   int samples() const { return samples_; }
-  // What curves of the run show: its samples, and what lies between them where that was kept; as many as there are until the last
+  // What curves of the run show: its samples, and what lies between them where that was kept; as many as there are until the end of the last
   // of its frames.
   const Trajectory& curve_run() const { return run_.trajectory.between ? *run_.trajectory.between : run_.trajectory; }
   int curve_samples() const;

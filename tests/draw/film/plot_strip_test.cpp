@@ -58,6 +58,32 @@ TEST(PlotStrip, RunsThatWentWildDoNotDecideOnTheAxis) {
   EXPECT_GT(alone.frame().y.high, 1e7);
 }
 
+// Where one leaves the plot it points on, and how far it gets is said.
+TEST(PlotStrip, RunsThatWentWildSayWhereTheyGo) {
+  const Fonts fonts;
+  const auto tame = run_of("a", false, {0, 1, 2}), wild = run_of("b", true, {0, 50, 3e8});
+  const auto drawn = [&](const std::vector<StripRun>& runs, double t) {
+    Picture picture;
+    const PlotStrip strip(strip_data(runs, 0, 2, light_theme()), kStripArea, style_of(fonts));
+    strip.draw_static(picture);
+    const std::size_t before = picture.items.size();
+    strip.draw_frame(picture, t);
+    picture.items.erase(picture.items.begin(), picture.items.begin() + std::ptrdiff_t(before));
+    return picture;
+  };
+  const auto words = [&](const std::vector<StripRun>& runs) {
+    Picture picture;
+    PlotStrip(strip_data(runs, 0, 2, light_theme()), kStripArea, style_of(fonts)).draw_static(picture);
+    return test::words_of(picture);
+  };
+  EXPECT_NE(words({tame, wild}).find("to 3\u00D710\u2078 m"), std::string::npos) << words({tame, wild});
+  EXPECT_EQ(words({tame, tame}).find("to "), std::string::npos);
+  const auto heads = [](const Picture& picture) { return test::all_of<Polygon>(picture, [](const Polygon& p) { return p.count == 3; }).size(); };
+  EXPECT_EQ(heads(drawn({tame, wild}, 2)), 1u);
+  EXPECT_EQ(heads(drawn({tame, wild}, 0.5)), 0u) << "not before it leaves";
+  EXPECT_EQ(heads(drawn({tame, tame}, 2)), 0u);
+}
+
 // What hardly changes is shown with zero, but where runs differ in that it changes.
 TEST(PlotStrip, WhatOneRunKeepsAndAnotherDoesNotIsSeen) {
   const Fonts fonts;
