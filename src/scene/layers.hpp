@@ -46,13 +46,13 @@ enum class LayerNeeds {
   ROW(ellipse, "ellipse", 0, end_effector, "")                                                              \
   ROW(foot, "chain", 0, nothing, "")                                                                        \
   ROW(frames, "frames", 0, nothing, "axes of the links' frames (y has one cross tick, z two)")              \
-  ROW(com, "com", 0, nothing, "the centre of mass of the whole chain")                                      \
   ROW(gravity, "gravity", 0, nothing, "the weight of each link at its centre of mass")                      \
   ROW(torque, "torque", 9, nothing,                                                                         \
       "where any acts: arcs at revolute joints, arrows beside the rails of sliders; a ring where one rests") \
   ROW(push, "push", 14, nothing, "what pushes from outside: an arrow where and while it acts")                \
   ROW(velocity, "velocity", 0, end_effector, "velocity of the end effector")                                \
   ROW(constraint_force, "constraint_force", 0, nothing, "dashed: what constraints exert on the robot, -lambda of their rows") \
+  ROW(com, "com", 0, nothing, "the centre of mass of the whole chain")                                      \
   ROW(annotations, "", 0, nothing, "")                                                                      \
   ROW(mark_labels, "", 0, nothing, "")                                                                      \
   ROW(chain_tip, "chain", 0, nothing, "")                                                                   \

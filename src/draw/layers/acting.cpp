@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/format.hpp"
+#include "draw/layers/beside_links.hpp"
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/layers/vectors.hpp"
@@ -40,6 +41,7 @@ using VectorsAt = std::function<std::vector<WorldVector>(const StagedRun& motion
 using KindsOf = std::function<std::vector<VectorKind>(const Chain& chain)>;
 
 constexpr std::array kForces{VectorKind::joint_force, VectorKind::weight, VectorKind::constraint, VectorKind::push};
+VectorsAt pushes_of(const Stage& stage);
 // The layers that show forces, by their names.
 std::map<const char*, VectorsAt (*)(const Stage&)> force_sources();
 
@@ -67,7 +69,9 @@ class VectorLayer : public Layer {
       for (const VectorKind kind : kinds_of_(stage_->motions[i].chain())) {
         if (std::find(shown.begin(), shown.end(), kind) != shown.end()) continue;
         shown.push_back(kind);
-        for (ScaleEntry& entry : scale_entries(scales_, {kind}, stage_->shows("legend"), stage_->theme)) {
+        // Beside a damper the arc has a name, too: it is the whole torque.
+        const bool is_named = stage_->shows("legend") || (kind == VectorKind::torque && has_damper(stage_->motions[i]));
+        for (ScaleEntry& entry : scale_entries(scales_, {kind}, is_named, stage_->theme)) {
           entry.order = int(i * kVectorKinds.size()) + int(kind);
           text.scales.push_back(std::move(entry));
         }
@@ -106,14 +110,73 @@ class VectorLayer : public Layer {
     // Arcs of neighbouring joints stay apart.
     const double link = panel.motion().skeleton().shortest_link * panel.camera().scale;
     const double arcs = link > 0 ? std::clamp(kArcOfLink * link / (panel.marks() * size::kTorqueArc), kSmallestArc, 1.0) : 1;
+    const Asides& asides = asides_of(panel, shot.k);
+    Names names;
     for (WorldVector& vector : vectors_at_(panel.motion(), shot.ws, shot.k)) {
       vector.size = arcs;
+      if (const auto one = asides.find(names.next(vector)); one != asides.end()) vector.aside = one->second[std::size_t(shot.k)];
       if (vector.kind == VectorKind::torque && arcs < kLabelledArc) vector.label.clear();
       pen_.draw(picture, vector, panel.camera(), panel.marks(), panel.clip(), shot.labels);
     }
   }
 
  private:
+  bool has_damper(const StagedRun& motion) const {
+    return std::ranges::any_of(devices_of(*stage_, motion), [](const Device& device) { return device.drive.damping > 0; });
+  }
+
+  // The same vector from frame to frame: by its label, and which of these it is.
+  using VectorName = std::pair<std::string, int>;
+  struct Names {
+    std::map<std::string, int> so_far{};
+    VectorName next(const WorldVector& vector) { return {vector.label, so_far[vector.label]++}; }
+  };
+  // How far each stands aside at each frame; those that never do are not in it.
+  using Asides = std::map<VectorName, std::vector<double>>;
+
+  // What an arrow is not to lie along, on the page: bars, body shapes being so wide that arrows hide little of them; and what
+  // pushes, where a velocity would hide it.
+  std::vector<PageLine> below(const WorldVector& vector, const Panel& panel, const Workspace& ws, int k, const std::vector<PageLine>& links) const {
+    std::vector<PageLine> lines = links;
+    if (vector.kind != VectorKind::velocity || !stage_->shows("push")) return lines;
+    for (const WorldVector& push : pushes_of(*stage_)(panel.motion(), ws, k)) {
+      const Point place = panel.camera().project(push.place);
+      lines.push_back({place, place + size::kLongestArrow * unit(panel.camera().project_vector(push.value, push.place))});
+    }
+    return lines;
+  }
+
+  // Found over all frames when the first one is drawn.
+  const Asides& asides_of(const Panel& panel, int drawn) const {
+    const StagedRun& motion = panel.motion();
+    const auto [known, is_new] = asides_.try_emplace(&motion);
+    if (!is_new) return known->second;
+    const double half = panel.look().link_width / 2;
+    std::map<VectorName, std::vector<LiesAlong>> along;
+    for (int k = 0; k <= panel.last(); ++k) {
+      const Workspace& ws = motion.pose_at(k);
+      const std::vector<PageLine> links = motion.shapes() ? std::vector<PageLine>() : links_on_page(panel, ws);
+      Names names;
+      for (const WorldVector& vector : vectors_at_(motion, ws, k)) {
+        const VectorName name = names.next(vector);
+        // Those of sliders and of ties have a place beside what they act on.
+        if (vector.kind == VectorKind::torque || vector.kind == VectorKind::joint_force || vector.pushes) continue;
+        const PageLine arrow = pen_.line_of(vector, panel.camera(), panel.marks());
+        LiesAlong most;
+        for (const PageLine& line : below(vector, panel, ws, k, links))
+          if (const LiesAlong one = lies_along(arrow, line, half); one.much > most.much) most = one;
+        if (most.much > 0) along.try_emplace(name, std::size_t(panel.last()) + 1).first->second[std::size_t(k)] = most;
+      }
+    }
+    motion.pose_at(drawn);
+    for (const auto& [name, frames] : along) {
+      std::vector<double> ways = ways_aside(frames, stage_->page.video.fps.value());
+      for (double& one : ways) one *= way_beside(panel.look());
+      known->second.emplace(name, std::move(ways));
+    }
+    return known->second;
+  }
+
   // By the time of the motion: where the film stands still or is slow nothing is larger. Runs that diverge do not decide on it,
   // unless all do: their arrows are cut.
   static VectorScales scales_of(const Stage& stage, const VectorsAt& vectors_at) {
@@ -168,6 +231,7 @@ class VectorLayer : public Layer {
   KindsOf kinds_of_;
   VectorScales scales_;
   VectorPen pen_;
+  mutable std::map<const StagedRun*, Asides> asides_;
 };
 
 std::vector<WorldVector> weights_at(const Chain& chain, const Workspace& ws) {
@@ -192,13 +256,11 @@ class TorqueRun {
   TorqueRun(const Stage& stage, const StagedRun& motion)
       : nv_(std::size_t(motion.chain().nv)),
         tau_(torques_along(*motion.simulation(), motion.trajectory())),
-        most_(nv_),
         shown_(nv_),
         rings_(nv_) {
     const std::vector<double>& t = motion.trajectory().t;
     for (std::size_t at = 0; at < tau_.size(); ++at)
-      if (std::isfinite(tau_[at])) most_[at % nv_] = std::max(most_[at % nv_], std::abs(tau_[at]));
-    for (std::size_t i = 0; i < nv_; ++i) shown_[i] = most_[i] > 0;
+      if (std::isfinite(tau_[at]) && tau_[at] != 0) shown_[at % nv_] = true;
     for (const Device& device : devices_of(stage, motion))
       if (device.is_all_of_it()) shown_[std::size_t(device.drive.freedom)] = false;
     // Pictures to be laid over others have no words but those that were asked for.
@@ -217,14 +279,12 @@ class TorqueRun {
   // Whether anything ever acts at the freedom, and no spring stands for it.
   bool shows(int freedom) const { return shown_[std::size_t(freedom)]; }
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
-  double most(int freedom) const { return most_[std::size_t(freedom)]; }
   bool is_labelled() const { return labelled_; }
   std::string word(int freedom) const { return nv_ == 1 ? "tau" : "tau_{" + std::to_string(freedom + 1) + "}"; }
 
  private:
   std::size_t nv_;
   std::vector<double> tau_;                 // nv a sample
-  std::vector<double> most_;                // a freedom: of |tau| over the samples
   std::vector<bool> shown_;                 // a freedom
   std::vector<std::vector<double>> rings_;  // a freedom, a sample
   bool labelled_ = true;
@@ -253,7 +313,7 @@ std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, con
     const Vector3d axis = X_WB.linear() * joint.axis;
     if (joint.kind == JointKind::revolute)
       vectors.push_back({VectorKind::torque, place, *own * axis, axis, Vector3d::Zero(), label,
-                         run.ring(joint.v_index, k), 1, run.most(joint.v_index)});
+                         run.ring(joint.v_index, k)});
     else
       vectors.push_back({VectorKind::joint_force, place, *own * axis, Vector3d::Zero(), axis, label});
   }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/layers/coils.hpp"
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
+#include "draw/page/coils.hpp"
 #include "draw/robot/chain.hpp"
 #include "picture/point.hpp"
 

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/layers/coils.hpp"
+#include "core/format.hpp"
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
+#include "draw/page/coils.hpp"
 #include "draw/robot/chain.hpp"
 #include "draw/robot/view.hpp"
 #include "dynamics/kinematics.hpp"
@@ -158,7 +159,19 @@ class SliderSprings : public Layer {
 // Over links and joints.
 class JointSprings : public Layer {
  public:
-  explicit JointSprings(const Stage& stage) : devices_(all_devices(stage, JointKind::revolute)) {}
+  explicit JointSprings(const Stage& stage) : devices_(all_devices(stage, JointKind::revolute)), color_(stage.theme.torque) {}
+
+  // A ring with vanes is not known to everybody as a damper: what it is stands in the foot, and how strong, where all are alike.
+  void write(SheetText& text) const override {
+    std::vector<double> dampings;
+    for (const auto& [motion, own] : devices_)
+      for (const Device& device : own)
+        if (device.drive.damping > 0) dampings.push_back(device.drive.damping);
+    if (dampings.empty()) return;
+    const auto [least, most] = std::ranges::minmax(dampings);
+    const std::string words = least == most ? "damper " + format_significant(most, 3) + "\u2009N m s" : "dampers";
+    text.scales.push_back({ScaleEntry::Mark::damper, 0, color_, words, kAfterVectors});
+  }
 
   void measure(const Sight& sight, FitBox& box) const override {
     const auto own = devices_.find(&sight.motion);
@@ -185,13 +198,14 @@ class JointSprings : public Layer {
       const Color color = toned(look.theme->torque, look);
       const double size = look.joint_disc / size::kJointDisc;
       if (device.drive.damping > 0)
-        draw_vanes(picture, turn, q, size, color, tinted(look.theme->torque, 0.25, look), panel.clip());
+        draw_vanes(picture, turn, q, size, color, tinted(look.theme->torque, kInsideOfVanes, look), panel.clip());
       if (device.drive.is_spring()) draw_spiral(picture, turn, q, device.drive.rest, size, color, panel.clip());
     }
   }
 
  private:
   Devices devices_;
+  Color color_;
 };
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "draw/layers/coils.hpp"
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
+#include "draw/page/coils.hpp"
 #include "draw/robot/chain.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"

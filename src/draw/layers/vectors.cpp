@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLeastNamed = 0.08;       // of the widest turn that arcs have: arcs of less lie on the disc of their joint, and have no name
-constexpr double kLeastOfOwn = 0.12;       // of the joint's largest torque: of less its arc is a dot far from where its name stands
+constexpr double kBesideTurn = 50;         // degrees beyond the ends of an arc within which its name stands
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer
 constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes
@@ -28,6 +28,7 @@ constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less 
 constexpr double kClearOfJoint = 0.020;   // units of H: arcs of twice that have an edge, those within it none
 constexpr double kLegendArc = 1.3;        // of the arc that most of a film's are smaller than: that of the legend at most
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
+constexpr double kPlaceDot = 0.0050, kTieToPlace = 0.0030, kPlaceCasing = 0.0016;  // units of H: radius, width, on each side
 constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
 
@@ -69,6 +70,13 @@ std::vector<Rect> places_along(const TextLine& label, Point tail, Point v, doubl
     places.push_back(place_beyond(label, tail + 0.6 * v, half + kFarLabelGap, way * side));
   }
   return places;
+}
+
+// Whether a place in this direction from the middle of an arc of half axes u and w is at the arc, or at least not across its joint,
+// where it would be taken for the name of what stands there.
+bool is_beside_turn(Point direction, Point u, Point w, double turn) {
+  const auto along = [direction](Point axis) { return dot(direction, axis) / std::max(dot(axis, axis), kRoundOffBelow); };
+  return std::abs(std::atan2(along(w), along(u))) <= std::max(turn / 2 + kBesideTurn * std::numbers::pi / 180, std::numbers::pi / 2 + kRoundOffBelow);
 }
 
 // The same word of the same mark from frame to frame.
@@ -223,7 +231,14 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
     arrow.shift = (marks * size::kBesideRail) * side;
   }
   if (vector.pushes && length > 0) arrow.shift = -(1 + marks * size::kBeforePushed / length) * arrow.v;
+  if (vector.aside != 0) arrow.shift = arrow.shift + vector.aside * normal_to(unit(arrow.v));
   return arrow;
+}
+
+PageLine VectorPen::line_of(const WorldVector& vector, const Camera& camera, double marks) const {
+  const Straight arrow = straight(vector, camera, marks);
+  const Point tail = camera.project(vector.place) + arrow.shift;
+  return {tail, tail + arrow.v};
 }
 
 Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double marks, double share) const {
@@ -279,18 +294,28 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   }
   const double dot = style.size * kTorqueDot;
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
-  // A word beside a dot, where a larger arc would be, is the name of nothing.
-  const bool is_small = !(turn > kLeastNamed * widest) || std::abs(value) < kLeastOfOwn * vector.most;
-  if (vector.label.empty() || (is_small && !(style.broken > 0))) return;
+  // A word beside a dot is the name of nothing.
+  if (vector.label.empty() || !(turn > kLeastNamed * widest)) return;
   const TextLine& text = label(vector, marks, style.broken > 0);
-  // Beside the largest arc of the clip: where all are small, a word where a full one would be stands alone.
-  const double largest = std::min(1.0, scale.on_page(vector.most) / whole);
-  const double off = std::max(largest * radius, kLeastLabelled * marks) + marks * size::kArrowHeadWidth / 2 + kVectorLabelGap;
-  std::vector<Rect> places = places_about(text, center, off, {0, 1});
-  for (const double far : {kFarLabelGap, 2.2 * kFarLabelGap})
-    for (const Rect& place : places_about(text, center, off + far, {0, 1})) places.push_back(place);
-  labels.add({word_name(vector), text, std::move(places), std::nullopt,
-              Tie{center, radius + marks * size::kArrowHeadWidth / 2, style.color}});
+  const double half_head = marks * size::kArrowHeadWidth / 2;
+  const double off = std::max(grown * radius, kLeastLabelled * marks) + half_head + kVectorLabelGap;
+  MarkWord word{word_name(vector), text, {}, std::nullopt, Tie{center, grown * radius + half_head, style.color}};
+  for (const double far : {0.0, kFarLabelGap, 2.2 * kFarLabelGap})
+    for (const Rect& place : places_about(text, center, off + far, {0, 1})) {
+      word.places.push_back(place);
+      word.closed.push_back(!is_beside_turn(center_of(place) - center, u, w, turn));
+    }
+  labels.add(std::move(word));
+}
+
+// Of an arrow that stands aside: a dot where it acts, and a line from there to its tail.
+void VectorPen::draw_tie_to_place(Picture& picture, Point place, Point tail, double marks, Color color, int clip) const {
+  // It comes as the arrow leaves its place.
+  const double dot = std::min(marks * kPlaceDot, norm(tail - place) / 2);
+  for (const auto& [tint, around] : {std::pair{theme_->background, marks * kPlaceCasing}, {color, 0.0}}) {
+    draw_line(picture, {place, tail}, theme_->lines * marks * kTieToPlace + 2 * around, tint, clip);
+    picture.add(Ellipse{place, {dot + around, 0}, {0, dot + around}, {tint, {}, 0}}, clip);
+  }
 }
 
 void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
@@ -299,18 +324,23 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (!std::isfinite(place.x) || !std::isfinite(place.y)) return;
   if (vector.kind == VectorKind::torque) return draw_torque(picture, vector, camera, marks, clip, labels);
   const Straight arrow = straight(vector, camera, marks);
-  // The number of a push is seen also where others are so large that it has no arrow.
-  const bool has_number = vector.kind == VectorKind::push;
+  const VectorScale scale = scales_.of(vector.kind);
+  const double magnitude = vector.value.norm();
+  if (!(magnitude > kRoundOffBelow * scale.full)) return;
   const bool is_seen = norm(arrow.v) >= size::kShortestArrow;
-  if (!is_seen && !(has_number && norm(arrow.v) > 0)) return;
   const Point tail = place + arrow.shift;
-  if (is_seen) draw_arrow(picture, tail, arrow.v,
-             {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines,
-              theme_->background},
-             clip);
-  // One beside hardly more than a head names what nobody sees.
-  if (vector.label.empty() || (!has_number && norm(arrow.v) < kLeastLabelled * marks)) return;
-  const TextLine& text = label(vector, marks, arrow.broken > 0);
+  if (is_seen && vector.aside != 0) draw_tie_to_place(picture, place, tail, marks, color_of(vector.kind, *theme_), clip);
+  if (is_seen)
+    draw_arrow(picture, tail, arrow.v,
+               {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines, theme_->background}, clip);
+  // What is hardly more than a head, or none, is a dot, lest it be thought that nothing acts.
+  if (scale.on_page(magnitude) < marks * kLeastLabelled && vector.kind != VectorKind::velocity)
+    picture.add(Ellipse{vector.pushes ? place : tail, {marks * kPlaceDot, 0}, {0, marks * kPlaceDot}, {color_of(vector.kind, *theme_), {}, 0}}, clip);
+  // A word beside such a one names what nobody sees, unless it is a number that stays: of a push, or of a weight.
+  const bool is_small = norm(arrow.v) < kLeastLabelled * marks;
+  const bool has_number = vector.kind == VectorKind::push || (is_small && vector.kind == VectorKind::weight);
+  if (vector.label.empty() || (is_small && !has_number)) return;
+  const TextLine& text = label(vector, marks, arrow.broken > 0 || is_small);
   labels.add({word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)});
 }
 

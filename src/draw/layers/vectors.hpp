@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -14,6 +13,7 @@
 #include "draw/page/mark_labels.hpp"
 #include "draw/page/scales.hpp"
 #include "draw/robot/fit.hpp"
+#include "draw/robot/joints.hpp"
 #include "picture/camera.hpp"
 #include "picture/text.hpp"
 #include "picture/theme.hpp"
@@ -35,8 +35,8 @@ struct WorldVector {
   std::string label{};                              // a symbol in math notation
   double ring = 0;  // of a torque: opacity of the ring which says that it rests
   double size = 1;  // of a torque's arc: less where links are short on the page
-  double most = std::numeric_limits<double>::infinity();  // of a torque, N m: over the clip; decides where its word stands
   bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
+  double aside = 0;     // units of H, to the left of its own way: it stands beside what it would hide, and a line ties it to its place
 };
 
 // What an arrow on the page is worth.
@@ -102,6 +102,8 @@ class VectorPen {
   void add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks, double share) const;
   // What it covers on the page, label included, about the projection of its place; empty if it is not drawn.
   Rect extent(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
+  // From its tail to its tip; of a force or a velocity.
+  PageLine line_of(const WorldVector& vector, const Camera& camera, double marks) const;
   // Its label goes to `labels`, which are drawn over all vectors.
   void draw(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
             MarkLabels& labels) const;
@@ -112,6 +114,7 @@ class VectorPen {
     double broken = 0;
   };
   Straight straight(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
+  void draw_tie_to_place(Picture& picture, Point place, Point tail, double marks, Color color, int clip) const;
   const TextLine& label(const WorldVector& vector, double marks, bool is_cut = false) const;
   void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
                    MarkLabels& labels) const;

@@ -43,6 +43,7 @@ struct MarkWord {
   std::optional<Leader> leader = std::nullopt;  // its word was asked for: it stands on others rather than nowhere
   std::optional<Tie> tie = std::nullopt;
   std::vector<TextLine> other_shapes{};  // the same words on more lines: for the places of their size
+  std::vector<bool> closed{};            // of the places: not to be had at this frame, but they keep their numbers; empty: none
 
   // What stands in such a box.
   const TextLine& shape_for(const Rect& box) const;

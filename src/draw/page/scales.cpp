@@ -1,9 +1,11 @@
 #include "draw/page/scales.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/format.hpp"
 #include "draw/page/arrow.hpp"
+#include "draw/page/coils.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/robot/joints.hpp"
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kBarTick = 0.012;    // height of the ticks at the ends of a bar
 constexpr double kTurnRadius = 0.70;  // of the em
+constexpr double kDamperSize = 0.55;  // of one about a joint of full size
 
 // An arc in the foot is small, but turns by the true angle.
 double turn_radius(double em) {
@@ -26,6 +29,9 @@ EntryLine lay_out_entry(const ScaleEntry& entry, const Fonts& fonts, double text
   switch (entry.mark) {
     case ScaleEntry::Mark::turn:
       line.mark_width = 2 * turn_radius(em) + 0.3 * em;
+      break;
+    case ScaleEntry::Mark::damper:
+      line.mark_width = 2 * kDamperSize * kVanesOuter;
       break;
     case ScaleEntry::Mark::center_of_mass:
       line.mark_width = size::kCenterOfMass;
@@ -45,6 +51,12 @@ void draw_entry(Picture& picture, const EntryLine& line, Point left, const Theme
     case ScaleEntry::Mark::turn:
       draw_turn(picture, middle, {0, r}, {-r, 0}, line.entry.measure, {line.entry.color, 0.6, false, 0, theme.lines}, -1);
       break;
+    case ScaleEntry::Mark::damper: {
+      ChainLook look;
+      look.theme = &theme;
+      draw_vanes(picture, {middle, {1, 0}, {0, 1}}, std::numbers::pi / 2, kDamperSize, line.entry.color, tinted(line.entry.color, kInsideOfVanes, look), -1);
+      break;
+    }
     case ScaleEntry::Mark::center_of_mass: {
       ChainLook look;
       look.theme = &theme;

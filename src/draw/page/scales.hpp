@@ -13,7 +13,7 @@ namespace chainreel {
 struct Sheet;
 
 struct ScaleEntry {
-  enum class Mark { arrow, dashed_arrow, turn, center_of_mass };
+  enum class Mark { arrow, dashed_arrow, turn, damper, center_of_mass };
   Mark mark = Mark::arrow;
   double measure = 0;  // units of H; of a turn rad
   Color color;

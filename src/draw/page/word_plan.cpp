@@ -207,7 +207,8 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
       if (now.places.size() == most) break;
       const Rect box = moved_into(area_, wish);
       const bool is_inside = norm(center_of(box) - center_of(wish)) <= kLeavesWith;
-      const Ground ground = is_inside ? ground_of(box, near, now.insists) : Ground::taken;
+      const bool is_closed = now.places.size() < words[i].closed.size() && words[i].closed[now.places.size()];
+      const Ground ground = is_inside && !is_closed ? ground_of(box, near, now.insists) : Ground::taken;
       now.places.push_back(box);
       now.grounds.push_back(ground);
       if (words[i].leader) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_leader(*words[i].leader, box, near));

@@ -457,6 +457,61 @@ TEST(Forces, AreAtOneScale) {
   if (lengths.size() > 1) EXPECT_LT(lengths[1], 0.2 * lengths[0]) << "40 N and weights of 10 N";
 }
 
+// Beside forces that leave no room for their arrows weights are dots with their numbers.
+TEST(Forces, ThatAreTooSmallForAnArrowAreDots) {
+  const auto dots = [](const Picture& picture) {
+    return test::all_of<Ellipse>(picture, [](const Ellipse& dot) { return dot.paint.fill == light().force; }).size();
+  };
+  const std::vector<std::string> weights{"draw=[+gravity, -g]"};
+  const std::string push = "push=[{frame: gripper, force: [0, 40000, 0], from: 0, until: 1}]";
+  const Cause alone("rr_free", weights, 0.2), beside("rr_free", {weights[0], push}, 0.2);
+  EXPECT_EQ(dots(beside.film().still(0)), 2u);
+  EXPECT_THAT(test::words_of(beside.film().still(0)), testing::HasSubstr("9.8"));
+  EXPECT_EQ(dots(alone.film().still(0)), 0u) << "arrows say all";
+  EXPECT_THAT(test::words_of(alone.film().still(0)), testing::Not(testing::HasSubstr("9.8")));
+}
+
+// A velocity along a push is beside it, and both are seen.
+TEST(Velocities, StandBesideThePushThatTheyWouldHide) {
+  const auto ties = [](const std::string& what) {
+    const Cause cause("rr_free", {"draw=[+velocity, -g]", "gravity=[0, 0, 0]", "start.q=[0, 90deg]", what}, 1);
+    return test::all_of<Ellipse>(cause.film().still(20), [](const Ellipse& dot) { return dot.paint.fill == light().velocity; }).size();
+  };
+  EXPECT_EQ(ties("push=[{frame: gripper, force: [-1, 0, 0], from: 0, until: 1}]"), 1u);
+  // Negative control: the torques that move it in the same way, J^T F.
+  EXPECT_EQ(ties("torque=[1, 1]"), 0u);
+}
+
+TEST(Dampers, AreNamedInTheFootWhereTheyTurn) {
+  const auto foot = [](const std::vector<std::string>& overrides) {
+    return test::words_of(Cause("slider_crank", overrides, 0.2).film().static_layer());
+  };
+  EXPECT_THAT(foot({}), testing::AllOf(testing::HasSubstr("damper 1\u2009N m s"), testing::HasSubstr("torque 10\u2009N m")));
+  EXPECT_THAT(foot({"torque=[\"8 - qd1\", \"-2*qd2\", 0]"}), testing::HasSubstr("dampers")) << "of several strengths";
+  EXPECT_THAT(foot({"torque=[8, 0, 0]"}), testing::Not(testing::HasSubstr("damper")));
+}
+
+// Across its joint a word would be that of what stands there.
+TEST(TorqueWords, StandBesideTheirArcs) {
+  const Cause cause("slider_crank", {}, 5);
+  const Film pictures = cause.film();
+  const Point joint = pictures.camera().project(Vector3d::Zero());
+  int above = 0, below = 0;
+  for (int k = 0; k < cause.run.size(); ++k) {
+    const Picture frame = pictures.frame(k);
+    double widest = 0;
+    for (const Arc& arc : test::all_of<Arc>(frame, [](const Arc& one) { return one.color == light().torque; }))
+      widest = std::max(widest, std::abs(arc.sweep));
+    for (const GlyphRun& word : test::all_of<GlyphRun>(frame, [](const GlyphRun& run) { return run.color == light().torque; })) {
+      const bool is_below = word.origin.y < joint.y - 0.05;
+      (is_below ? below : above) += 1;
+      // Below by 45 degrees, which is 50 beyond an end.
+      if (is_below) EXPECT_GT(widest, 2 * (135 - 50) * std::numbers::pi / 180 - 0.5) << k << ": but for the angle of the head";
+    }
+  }
+  EXPECT_GT(above, 100);
+}
+
 // Whatever pulls there, no word lies on the pose that feedback follows.
 TEST(TargetLayer, KeepsWordsOffItsOutline) {
   const Cause cause("rr_free", {"torque={pd: {kp: 20, kd: 2, q: [\"-0.3 + 0.8*sin(t)\", -0.5]}}"}, 3);

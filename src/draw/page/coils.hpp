@@ -22,6 +22,8 @@ inline constexpr double kSpiralOuter = 0.046;  // radius, units of H
 // A spiral whose inner end turns with the link, at angle q, and whose outer end is fixed: where q = rest it has its own
 // number of windings.
 void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, double size, Color color, int clip);
+inline constexpr double kVanesOuter = 0.0285;    // radius, units of H
+inline constexpr double kInsideOfVanes = 0.25;   // of the colour's strength
 // A ring about the joint in which vanes turn with the link.
 void draw_vanes(Picture& picture, const PageTurn& turn, double q, double size, Color color, Color inside, int clip);
 // A coil along the arc from one angle to another, as flat as they are near.

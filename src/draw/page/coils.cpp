@@ -1,4 +1,4 @@
-#include "draw/layers/coils.hpp"
+#include "draw/page/coils.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr double kLead = 0.012;        // of straight wire at both ends
 constexpr double kCylinder = 0.58, kPiston = 0.40, kCylinderWidth = 0.024;  // shares of the length; units of H
 constexpr double kSpiralInner = 0.019, kSpiralWindings = 2, kFewestWindings = 0.5;
 constexpr int kPiecesOfSpiral = 56;
-constexpr double kVanesInner = 0.0175, kVanesOuter = 0.0285;
+constexpr double kVanesInner = 0.0175;
 constexpr double kRoundCoil = 0.0085;  // half its width
 constexpr int kRoundWindings = 6;
 constexpr double kRoundGrown = 0.05;   // units of H: a coil as long has its full width
