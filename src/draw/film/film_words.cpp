@@ -38,7 +38,9 @@ class Gatherer {
       layer.draw(pictures.of(layer), {panel, ws, shown, k > shown, view_.corner(l, i), labels});
     }
     pictures.add_to(obstacles);
-    if (panel.motion().shapes()) add_bodies(obstacles, panel.motion().skeleton(), ws, panel.camera());
+    if (!panel.motion().shapes()) return;
+    add_bodies(obstacles, panel.motion().skeleton(), ws, panel.camera());
+    add_silhouettes(obstacles, *panel.motion().shapes(), ws, panel.camera(), true);
   }
 
   // The same; chains in outline lie over the first one.

@@ -27,14 +27,14 @@ std::vector<Point> hull_of(std::vector<Point> points) {
 
 }  // namespace
 
-void add_silhouettes(std::vector<Obstacle>& obstacles, const BodyShapes& shapes, const Workspace& ws, const Camera& camera) {
+void add_silhouettes(std::vector<Obstacle>& obstacles, const BodyShapes& shapes, const Workspace& ws, const Camera& camera, bool may_yield) {
   for (const BodyShape& shape : shapes.shapes) {
     std::vector<Point> places;
     for (const Eigen::Vector3d& corner : shape.corners) places.push_back(camera.project(pose_of(ws, shape.body) * corner));
     const std::vector<Point> hull = hull_of(std::move(places));
     if (hull.empty()) continue;
     const auto [low, high] = std::ranges::minmax(hull, {}, &Point::y);
-    for (std::size_t i = 0; i < hull.size(); ++i) obstacles.push_back({hull[i], hull[(i + 1) % hull.size()], 0, false});
+    for (std::size_t i = 0; i < hull.size(); ++i) obstacles.push_back({hull[i], hull[(i + 1) % hull.size()], 0, may_yield});
     for (double y = low.y + kBetweenRows; y < high.y; y += kBetweenRows) {
       double left = HUGE_VAL, right = -HUGE_VAL;
       for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -43,7 +43,7 @@ void add_silhouettes(std::vector<Obstacle>& obstacles, const BodyShapes& shapes,
         const double x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
         left = std::min(left, x), right = std::max(right, x);
       }
-      if (left < right) obstacles.push_back({{left, y}, {right, y}, 0, false});
+      if (left < right) obstacles.push_back({{left, y}, {right, y}, 0, may_yield});
     }
   }
 }

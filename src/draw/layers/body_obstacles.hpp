@@ -22,7 +22,8 @@ inline void add_bodies(std::vector<Obstacle>& obstacles, const Skeleton& skeleto
   }
 }
 
-// The same, of still figures, which have room around the robot: all that each shape covers, as the hull of its corners.
-void add_silhouettes(std::vector<Obstacle>& obstacles, const BodyShapes& shapes, const Workspace& ws, const Camera& camera);
+// All that each shape covers, as the hull of its corners. Still figures have room around the robot: there words may not stand on it.
+void add_silhouettes(std::vector<Obstacle>& obstacles, const BodyShapes& shapes, const Workspace& ws, const Camera& camera,
+                     bool may_yield = false);
 
 }  // namespace chainreel

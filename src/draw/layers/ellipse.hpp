@@ -85,6 +85,9 @@ enum class EllipsePart { whole, below, above };
 // Whether the robot hides a place from the viewer, given from the curve's middle, in W, in units of H.
 using Hides = std::function<bool(const Eigen::Vector3d&)>;
 
+// Whether some of a box lies in front of a curve.
+using Covers = std::function<bool(const Rect&)>;
+
 // What belongs to the picture in which ellipses are drawn.
 struct EllipseStyle {
   const Theme* theme = nullptr;
@@ -100,6 +103,7 @@ struct EllipseStyle {
   int* unnamed = nullptr;  // of figures, which have room around: counts semi-axes that have no place for their number
   EllipsePart part = EllipsePart::whole;
   Hides hides = nullptr;  // of a robot in space
+  Covers covers = nullptr;  // of an ellipsoid in a film: its numbers stand outside, with a line to what they are of
   double hole = 0;        // units of H: axes begin at the end of the link about the middle, whose outline they would cut
   Point outward{};        // away from the link that the middle is an end of; numbers stand at the outer ends of axes along it in figures, of axes that are cut in films
   bool is_filled = true;  // not where several lie over one another

@@ -8,6 +8,7 @@
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/page/scales.hpp"
+#include "draw/robot/view.hpp"
 #include "sim/instant.hpp"
 
 namespace chainreel {
@@ -203,13 +204,14 @@ class EllipseInside : public Layer {
 
 class EllipseLines : public Layer {
  public:
-  explicit EllipseLines(const Stage& stage) : along_(stage), has_legend_(stage.shows("legend")) {}
+  explicit EllipseLines(const Stage& stage)
+      : along_(stage), has_legend_(stage.shows("legend")), is_of_hand_(has_eye(stage.motions.front().chain(), stage.page.camera)) {}
 
   UnderWords under_words() const override { return UnderWords::if_need_be; }
   bool has_words() const override { return true; }
 
   void write(SheetText& text) const override {
-    text.bar = along_.scale().label();
+    text.bar = along_.scale().label() + (is_of_hand_ ? " at the hand" : "");
     text.bar_length = along_.scale().bar_length;
     if (has_legend_) text.legend = ellipse_legend(along_.reading(), along_.body());
   }
@@ -223,6 +225,7 @@ class EllipseLines : public Layer {
  private:
   MassAlong along_;
   bool has_legend_;
+  bool is_of_hand_;  // seen in perspective, a bar in the foot would be taken for one of all depths
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ using Eigen::Vector3d;
 constexpr int kHalfTurn = 64;          // of half a turn
 constexpr double kFarLine = 0.0016;  // units of H: lines behind the middle
 constexpr double kFarOpacity = 0.75;
+constexpr double kAroundSilhouette = 0.006;  // units of H: half of its line, and air
 constexpr double kFarDash = 0.008, kFarGap = 0.006;  // units of H
 
 // A semi-axis in W, units of H on a page that it is parallel to.
@@ -191,8 +192,23 @@ class Ellipsoid {
     }
   }
 
+  // Whether the silhouette, with the width of its line and some air, has any of a box.
+  bool meets_silhouette(const Rect& box) const {
+    constexpr int kSteps = 8;  // words are some five times as wide as high
+    const std::array<Point, 2> axes = spread_.axes();
+    const auto share = [](Point p, Point axis) { return dot(p, unit(axis)) / (norm(axis) + kAroundSilhouette); };
+    for (int i = 0; i <= kSteps; ++i)
+      for (int j = 0; j <= 2; ++j) {
+        const Point p = Point{box.x0 + i * box.width() / kSteps, box.y0 + j * box.height() / 2} - center_;
+        if (std::hypot(share(p, axes[0]), share(p, axes[1])) < 1) return true;
+      }
+    return false;
+  }
+
   // The length of each semi-axis at the end that faces the viewer, or that no robot hides, else at the other one.
   void draw_numbers(Picture& picture, int clip) const {
+    EllipseStyle style = style_;
+    if (style.unnamed == nullptr) style.covers = [this](const Rect& box) { return meets_silhouette(box); };
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       const Point v = on_page(axes_[i].v) - center_;
       if (!(norm(v) > kNoLength)) continue;
@@ -201,7 +217,7 @@ class Ellipsoid {
         const auto is_hidden = [&](bool other) { return style_.hides((other ? -1 : 1) * axes_[i].v); };
         if (is_hidden(back) && !is_hidden(!back)) back = !back;
       }
-      draw_length(picture, center_, (back ? -1 : 1) * v, axes_[i].length, spread_.reach(normal_to(unit(v))), style_, clip);
+      draw_length(picture, center_, (back ? -1 : 1) * v, axes_[i].length, spread_.reach(normal_to(unit(v))), style, clip);
     }
   }
 

@@ -361,7 +361,7 @@ void add_places(MarkWord& word, Point center, Point v, std::span<const double> e
     for (const double gap : std::span(kFarNumberGaps).first(is_figure ? std::size(kFarNumberGaps) : kFarOfFilms))
       for (const Point tip : {end, center - v})
         for (const Rect& place : places_about(word.line, tip, gap, unit(tip - center)))
-          if (is_within(place, style.scene) && (is_figure || tip.x == end.x)) word.places.push_back(place);
+          if (is_within(place, style.scene)) word.places.push_back(place);
     word.tie = Tie{end, kTieOff, style.theme->ellipse, center - v, kShortTie};
   }
   if (!has_lines) return;
@@ -378,6 +378,13 @@ void add_places(MarkWord& word, Point center, Point v, std::span<const double> e
         if (is_within(place, style.scene)) word.places.push_back(place);
   // However near: beside the end of an axis there may be a link, too.
   word.tie = Tie{center + v, kTieOff, style.theme->ellipse, center - v, kShortTie};
+}
+
+// Of an ellipsoid numbers stand before none of its lines, unless there is no other place.
+void close_covered(MarkWord& word, const EllipseStyle& style) {
+  if (!style.covers) return;
+  for (const Rect& place : word.places) word.closed.push_back(style.covers(place));
+  if (std::ranges::find(word.closed, false) == word.closed.end()) word.closed.clear();
 }
 
 }  // namespace
@@ -422,6 +429,7 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
   add_places(word, center, v, ends, style, others);
   // Rather at the inner end than nowhere.
   if (ends.size() == 1) add_places(word, center, v, std::vector<double>{-1}, style, others);
+  close_covered(word, style);
   if (leaves_scene) word.tie.reset();  // beside it where it leaves the scene
   if (!word.places.empty())
     style.labels->add(std::move(word));

@@ -490,5 +490,40 @@ TEST(EllipseLayer, KeepsLongEllipsesOnItsPage) {
   EXPECT_GE(lengths[10], 0.30) << "no smaller than they need be";
 }
 
+// Of a film: before its lines they could not be read.
+TEST(Ellipsoid, HasItsNumbersOutsideOfItsSilhouette) {
+  const std::vector<MassAxis> axes{{2, Eigen::Vector3d::UnitX()}, {1.5, Eigen::Vector3d::UnitZ()}, {1, Eigen::Vector3d(0.1, 1, 0.1).normalized()}};
+  MarkLabels labels;
+  EllipseStyle style{&light_theme(), &fonts(), 1, 0.1, {0.045, 0.11, 1.73, 0.87}};
+  style.labels = &labels;
+  style.hides = [](const Eigen::Vector3d&) { return false; };
+  Camera camera;
+  camera.right = Eigen::Vector3d(1, 0, -0.3).normalized();
+  camera.toward_viewer = Eigen::Vector3d(0.3, 0, 1).normalized();
+  const Point center{0.8, 0.5};
+  Picture picture;
+  draw_ellipsoid(picture, axes, center, camera, style, -1);
+  Spread spread;
+  for (const MassAxis& axis : axes) spread.add({0.1 * *axis.mass * camera.right.dot(axis.direction), 0.1 * *axis.mass * camera.up.dot(axis.direction)});
+  ASSERT_EQ(labels.words().size(), 3u);
+  int closed = 0;
+  for (const MarkWord& word : labels.words()) {
+    ASSERT_EQ(word.closed.size(), word.places.size());
+    for (std::size_t p = 0; p < word.places.size(); ++p) {
+      if (word.closed[p] && ++closed) continue;
+      const Rect& box = word.places[p];
+      for (const Point corner : {Point{box.x0, box.y0}, {box.x1, box.y0}, {box.x1, box.y1}, {box.x0, box.y1}, center_of(box)}) {
+        const Point from = corner - center, way = unit(from);
+        // Where the ray to it leaves the ellipse p^T S^-1 p = 1.
+        const double det = spread.xx * spread.yy - spread.xy * spread.xy;
+        const double inverse = (spread.yy * way.x * way.x - 2 * spread.xy * way.x * way.y + spread.xx * way.y * way.y) / det;
+        EXPECT_GT(norm(from), 1 / std::sqrt(inverse));
+      }
+    }
+    EXPECT_TRUE(std::ranges::find(word.closed, false) != word.closed.end()) << "it has a place";
+  }
+  EXPECT_GT(closed, 0) << "ends of axes lie before it";
+}
+
 }  // namespace
 }  // namespace chainreel
