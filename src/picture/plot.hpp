@@ -87,7 +87,7 @@ void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style)
 
 // --- curves ---
 
-enum class Dash { solid, dashed, dotted, dash_dot };
+enum class Dash { solid, dashed, dotted, dash_dot, even };  // even: gaps as long as dashes, which show a curve below
 enum class Marker {
   none,
   disc,

@@ -76,6 +76,8 @@ std::vector<double> pattern_of(const CurveStyle& style) {
       return {on(kDashOn), off(kDashOff)};
     case Dash::dotted:
       return {on(kDotOn), off(kDotOff)};
+    case Dash::even:
+      return {on(kDashOn), off(kDashOn)};
     case Dash::dash_dot:
       return {on(kDashOn), off(kDashOff), on(kDotOn), off(kDashOff)};
   }

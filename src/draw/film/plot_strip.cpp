@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "core/format.hpp"
 #include "draw/film/strip_axes.hpp"
@@ -28,6 +29,7 @@ constexpr double kStepMark = 0.009;  // units of H, across
 constexpr double kSameEnd = 1e-6;    // of a step: its end
 constexpr double kLeastOfMoved = 0.05;  // of the energy that a motion moves: a drift of a hundredth of it is a fifth of the plot, noise of methods a line
 constexpr double kFlatOfMoved = 2e-3;   // of the same: what the line of a curve covers where the axis has that range
+constexpr double kSameCurve = 2e-3;   // of its range, by which a curve leaves another one: half of what a line is thick
 
 bool is_of_ellipse(PlotQuantity quantity) {
   return quantity == PlotQuantity::effective_mass || quantity == PlotQuantity::energy_speed;
@@ -160,7 +162,12 @@ void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve
     if (i < count) path.push_back(points[i]);
   if (count > 0 && !std::ranges::binary_search(curve.shown, count - 1)) path.push_back(points.back());
   CurveStyle style = curve.style;
-  style.color = style.color.faded(opacity);
+  // Two pale colours over one another would be a third one, of no curve.
+  if (curve.covers && opacity < 1) {
+    style.color = theme.background;
+    draw_curve(picture, frame, path, style, theme);
+  }
+  style.color = curve.style.color.faded(opacity);
   draw_curve(picture, frame, path, style, theme);
   if (count == curve.points.size()) draw_going_on(picture, frame, curve, style.color);
   for (const Point& p : curve.marks)
@@ -244,6 +251,28 @@ void add_doubts(const StripRun& run, std::size_t i, StripData& data) {
   }
 }
 
+// Of two curves in one place the later one has gaps that show the other.
+void part_equal_curves(std::vector<StripCurve>& curves) {
+  const auto is_same = [](const StripCurve& a, const StripCurve& b) {
+    if (a.points.size() != b.points.size() || a.points.empty()) return false;
+    double low = HUGE_VAL, high = -HUGE_VAL, apart = 0;
+    for (std::size_t k = 0; k < a.points.size(); ++k) {
+      const double y = a.points[k].y, other = b.points[k].y;
+      if (a.points[k].x != b.points[k].x || std::isfinite(y) != std::isfinite(other)) return false;
+      if (!std::isfinite(y)) continue;
+      low = std::min(low, y), high = std::max(high, y), apart = std::max(apart, std::abs(y - other));
+    }
+    return apart <= kSameCurve * (high - low);
+  };
+  for (std::size_t c = 1; c < curves.size(); ++c) {
+    const std::span before = std::span(curves).first(c);
+    const auto below = std::ranges::count_if(before, [&](const StripCurve& one) { return is_same(one, curves[c]); });
+    curves[c].covers = below > 0;
+    // A third one keeps dots of its own.
+    if (below == 1) curves[c].style.dash = Dash::even;
+  }
+}
+
 }  // namespace
 
 StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double end, const Theme& theme) {
@@ -274,6 +303,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
       data.curves.push_back(std::move(curve));
     }
   }
+  part_equal_curves(data.curves);
   return data;
 }
 

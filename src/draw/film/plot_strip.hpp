@@ -16,6 +16,7 @@ struct StripCurve {
   CurveStyle style;
   std::vector<Point> points;  // (t, y), t rising
   bool decides = true;        // on the range of the axis; curves of runs that went wild do not
+  bool covers = false;        // it lies on one before it, which is seen through its gaps
   std::vector<Point> marks{};  // of the points, where a step of the run ends and is seen
   std::vector<std::size_t> shown{};  // which points a strip draws: the rest lie on the lines between them
 };

@@ -49,6 +49,29 @@ TEST(PlotStrip, DrawsThePastInFullAndTheFuturePale) {
   EXPECT_EQ(right_end(still, full), 0);
 }
 
+// Of one colour below the other nobody would know that there are two.
+TEST(PlotStrip, TheSecondOfTwoEqualCurvesShowsTheFirstThroughItsGaps) {
+  const Fonts fonts;
+  const auto two = [](double apart) {
+    StripRun run = run_of("a", false, {0, 1, 2, 3, 4});
+    run.plots[0].curves[0].name = "lambda1";
+    run.plots[0].curves.push_back({"lambda2", {0, 1 + apart, 2, 3, 4}});
+    return strip_data({run}, 0, 4, light_theme());
+  };
+  const StripData equal = two(0.001), apart = two(0.1);
+  EXPECT_TRUE(equal.curves[1].covers);
+  EXPECT_EQ(equal.curves[1].style.dash, Dash::even);
+  EXPECT_FALSE(equal.curves[0].covers);
+  EXPECT_FALSE(apart.curves[1].covers);
+  EXPECT_EQ(apart.curves[1].style.dash, Dash::dashed);
+  // What is to come of it hides the other one in its dashes, or both would mix.
+  Picture picture;
+  PlotStrip(equal, kStripArea, style_of(fonts)).draw_static(picture);
+  const auto of = [&](Color color) { return test::all_of<Trail>(picture, [&](const Trail& trail) { return trail.color == color; }).size(); };
+  EXPECT_EQ(of(light_theme().background), 1u);
+  EXPECT_GE(of(light_theme().curve[1].faded(0.45)), 1u);
+}
+
 TEST(PlotStrip, RunsThatWentWildDoNotDecideOnTheAxis) {
   const Fonts fonts;
   const auto tame = run_of("a", false, {0, 1, 2}), wild = run_of("b", true, {0, 50, 1e8});
