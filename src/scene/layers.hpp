@@ -45,6 +45,7 @@ enum class LayerNeeds {
   ROW(angles, "angles", 0, nothing, "the coordinates: of revolute joints arcs, of sliders lengths, from zero on") \
   ROW(ellipse, "ellipse", 0, end_effector, "")                                                              \
   ROW(foot, "chain", 0, nothing, "")                                                                        \
+  ROW(fall_level, "", 0, words, "")                                                                         \
   ROW(frames, "frames", 0, nothing, "axes of the links' frames (y has one cross tick, z two)")              \
   ROW(gravity, "gravity", 0, nothing, "the weight of each link at its centre of mass")                      \
   ROW(torque, "torque", 9, nothing,                                                                         \

@@ -72,6 +72,7 @@ std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<
 struct PlotCurve {
   std::string name;       // "q1", "kinetic"; of an expression ""
   std::vector<double> y;  // a number a sample; an effective mass may be infinite
+  bool is_bound = false;  // what the others are held against
 };
 struct PlotCurves {
   PlotQuantity quantity = PlotQuantity::expression;

@@ -60,7 +60,7 @@ TEST(Annotations, LookLikeTheirGoldens) {
 TEST(Annotations, TellTheTimeOfTheFallAndParameters) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.svg");
-  ASSERT_EQ(run_program({"snapshot", "assets/scenes/humanoid_fall.yaml", "--quiet", "--at", "1", "--set",
+  ASSERT_EQ(run_program({"snapshot", "assets/scenes/humanoid_fall.yaml", "--quiet", "--at", "1", "--set", "layout=scene", "--set",
                          "annotate=[{at: 1, text: \"over at {fall}, {tau} N m, {else}\", point: [0, 1]}]", "-o", file})
                 .status,
             0);

@@ -281,6 +281,7 @@ TEST(FallCommand, SaysWhatItNeeds) {
 
 // The scale of the ground's reaction stands while there is one that a ground can give: it pushes while he stands, and at the
 // end, where it had to pull, there is neither an arrow nor its scale.
+// What holds the foot at the end has the same scale.
 TEST(Events, TheGroundsScaleStandsWithItsArrow) {
   const TemporaryFolder folder;
   const auto picture_at = [&](const std::string& instant) {
@@ -291,7 +292,7 @@ TEST(Events, TheGroundsScaleStandsWithItsArrow) {
     return read_whole_file(file);
   };
   EXPECT_NE(picture_at("0.5").find("ground reaction"), std::string::npos);
-  EXPECT_EQ(picture_at("event hip where the knee was").find("ground reaction"), std::string::npos);
+  EXPECT_NE(picture_at("event hip where the knee was").find("ground reaction"), std::string::npos);
 }
 
 TEST(Events, AreInTheAuditWithNameTimeAndState) {
@@ -332,7 +333,10 @@ TEST(Events, LeadAutoNoFurtherThanToTheEnd) {
 // Of a scene whose layout holds one run: panels take another one, tell their falls, and leave the title above them open.
 TEST(FallCommand, PanelsOfAVariedSceneTellWhetherTheyFall) {
   const TemporaryFolder folder;
-  const Words words{"snapshot", "humanoid_fall", "--at", "3", "--vary", "parameters.k=0,930", "-o", folder.file("a.svg")};
+  std::string text = read_whole_file(kHuman);
+  text.replace(text.find("../../models"), std::string("../../models").size(), CHAINREEL_SOURCE_FOLDER "/models");
+  const std::string scene = folder.write("human.yaml", text + "layout: scene\n");
+  const Words words{"snapshot", scene, "--at", "3", "--vary", "parameters.k=0,930", "-o", folder.file("a.svg")};
   const ProgramResult made = run_program(words);
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("layout 'scene' shows one run"));

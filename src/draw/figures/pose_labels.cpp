@@ -16,7 +16,7 @@ constexpr int kDirections = 24, kCurvePlaces = 48;
 constexpr double kOff[] = {0.022, 0.04, 0.06, 0.09, 0.13, 0.18, 0.24};  // units of H, from the tip to the name
 constexpr int kRounds = 20;
 constexpr double kBetweenNumbers = 0.8;  // of their height
-constexpr double kAir = 0.010, kTipAir = 0.010;  // units of H, around a name and a tip
+constexpr double kAirOfName = 0.010, kTipAir = 0.010;  // units of H, around a name and a tip
 // What a name pays for what it does, inwards from the middle of all tips at most kInward: for a unit it goes 0.1 H farther to
 // avoid it.
 constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 1.2, kOnLine = 0.9, kOnBar = 0.5, kInward = 0.3, kPerH = 10;
@@ -104,7 +104,7 @@ std::vector<Candidate> candidates_of(std::size_t i, std::span<const NamedPlace> 
         Candidate one{box, nearest_in(box, anchor.at), anchor.at, anchor.outward ? kAtEnd : 0};
         one.cost += kPerH * norm(anchor.at - one.foot) + kInward * (1 - dot(way, outward)) / 2;
         for (std::size_t j = 0; j < places.size(); ++j) {
-          if (is_on_curve(widened(box, kAir / 2), places[j])) one.cost += kOnCurve;
+          if (is_on_curve(widened(box, kAirOfName / 2), places[j])) one.cost += kOnCurve;
           if (j == i || norm(places[j].tip - own.tip) < kTipAir) continue;
           if (norm(places[j].tip - nearest_in(box, places[j].tip)) < kTipAir) one.cost += kOnTip;
           if (distance_to(places[j].tip, one.foot, anchor.at) < kTipAir) one.cost += kCrossing;
@@ -112,7 +112,7 @@ std::vector<Candidate> candidates_of(std::size_t i, std::span<const NamedPlace> 
         }
         for (const Bar& bar : bars)
           if (meets(widened(box, bar.half_width), bar.a, bar.b)) one.cost += kOnBar;
-        if (std::ranges::any_of(lines, [&](const Obstacle& line) { return meets(widened(box, line.radius + kAir / 2), line.a, line.b); }))
+        if (std::ranges::any_of(lines, [&](const Obstacle& line) { return meets(widened(box, line.radius + kAirOfName / 2), line.a, line.b); }))
           one.cost += kOnLine;
         candidates.push_back(one);
       }
@@ -125,7 +125,7 @@ std::vector<Candidate> candidates_of(std::size_t i, std::span<const NamedPlace> 
 
 double cost_beside(const Candidate& one, const Candidate& other) {
   double cost = 0;
-  if (overlap(widened(one.box, kAir / 2), widened(other.box, kAir / 2))) cost += kOnName;
+  if (overlap(widened(one.box, kAirOfName / 2), widened(other.box, kAirOfName / 2))) cost += kOnName;
   if (segments_cross(one.foot, one.to, other.foot, other.to)) cost += kCrossing;
   if (meets(one.box, other.foot, other.to)) cost += kCrossing;
   if (meets(other.box, one.foot, one.to)) cost += kCrossing;
@@ -229,7 +229,7 @@ bool leave_ties(std::vector<MarkWord>& words, const std::vector<StandingWord>& s
     for (std::size_t j = 0; j < words.size(); ++j) {
       const auto meets_line = [&](const Rect& box) {
         const auto own = words[j].tie ? line_of(*words[j].tie, box) : std::nullopt;
-        return meets(widened(box, kAir / 2), line->from, line->to) || (own && segments_cross(line->from, line->to, own->from, own->to));
+        return meets(widened(box, kAirOfName / 2), line->from, line->to) || (own && segments_cross(line->from, line->to, own->from, own->to));
       };
       if (j == i || !(standing[j].opacity > 0) || !meets_line(standing[j].box)) continue;
       std::vector<Rect> others;

@@ -14,6 +14,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kTotalLine = 0.0045;
+constexpr double kBoundLine = 0.0025;
 constexpr double kPale = 0.45;   // of a curve that is still to come
 constexpr double kShareBelow = 0.30;  // of the page's height
 constexpr double kMostLabels = 0.4;  // of a plot's width may be taken by the names of its curves
@@ -40,6 +41,7 @@ CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, 
                     const Theme& theme) {
   CurveStyle style = curve_style(int(runs > 1 ? run : curve), theme);
   style.marker = Marker::none;
+  if (plot.curves[curve].is_bound) return {theme.muted, theme.lines * kBoundLine, Dash::dashed, Marker::none};
   if (runs > 1) {
     style.color = variant_color(theme, int(run), int(runs));
     style.dash = plot.curves.size() > 1 ? Dash(curve % 4) : Dash::solid;
@@ -50,7 +52,7 @@ CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, 
     return {theme.ink, theme.lines * kTotalLine, Dash::solid, Marker::none};
   if (is_of_ellipse(plot.quantity)) return {theme.ellipse, style.width, Dash(curve % 4), Marker::none};  // as its axes
   const bool is_of_constraint = plot.quantity == PlotQuantity::lambda || plot.title.find("lambda") != std::string::npos;
-  if (is_of_constraint && plot.curves.size() == 1) style.color = theme.constraint;  // as its arrow
+  if ((is_of_constraint && plot.curves.size() == 1) || plot.formula == "cop") style.color = theme.constraint;  // as its arrow
   return style;
 }
 
@@ -214,8 +216,9 @@ void PlotStrip::draw_static(Picture& picture) const {
     const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [](const Point& p) { return std::isfinite(p.y); });
     if (curve.label.empty() || curve.points.empty() || (last == curve.points.rend() && !data_.has_poles)) continue;
     const Point end = last == curve.points.rend() ? Point{frame_.box.x1, frame_.box.y1} : frame_.at(*last);
-    // A leader from where a curve leaves the plot would be taken for its way on.
-    ends.push_back({{curve.decides ? end.x : frame_.box.x1, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
+    // A leader from where a curve leaves the plot, or ends before the others, would be taken for its way on.
+    const bool goes_on = curve.decides && last == curve.points.rbegin();
+    ends.push_back({{goes_on ? end.x : frame_.box.x1, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "draw/layers/devices.hpp"
@@ -48,6 +49,21 @@ Story of_ellipse(const Stage& stage) {
   return of_all(stage, ellipse.reading == EllipseReading::energy ? PlotQuantity::energy_speed : PlotQuantity::effective_mass);
 }
 
+// Of a foot where the ground presses, and between which ends it can; what lies farther beyond them than half of the foot is left out.
+std::vector<PlotCurves> pressure_on_foot(const StagedRun& motion) {
+  constexpr double kBeyondFoot = 0.5;  // lengths of the foot
+  const Foot& foot = *motion.simulation()->events->foot;
+  const auto plots = make_plots(motion.chain(), {{"cop", "", {}}, {"toe", "", {}}, {"heel", "", {}}}, {}, {}, foot);
+  std::vector<PlotCurves> found = plot_curves(*plots, *motion.simulation(), motion.curve_run(), motion.curve_samples());
+  PlotCurves told{PlotQuantity::expression, "centre of pressure [m]", false, {}, found.front().formula};
+  for (PlotCurves& one : found) told.curves.push_back({one.formula, std::move(one.curves.front().y), one.formula != "cop"});
+  const double most = kBeyondFoot * (foot.toe - foot.heel);
+  for (double& place : told.curves.front().y)
+    if (place < foot.heel - most || place > foot.toe + most) place = NAN;
+  told.curves.front().name = "pressure";
+  return {told};
+}
+
 bool is_of_method(const SceneEntry& entry) {
   constexpr std::array<std::string_view, 5> kKeys = {"method", "step", "tolerance", "order", "accuracy"};
   return std::ranges::find(kKeys, entry.key) != kKeys.end();
@@ -75,6 +91,7 @@ Story story_of(const Stage& stage) {
   const StagedRun& first = stage.motions.front();
   const auto is_constrained = [](const StagedRun& motion) { return motion.trajectory().rows > 0; };
   if (std::all_of(stage.motions.begin(), stage.motions.end(), is_constrained)) return of_all(stage, PlotQuantity::lambda);
+  if (!stage.is_comparison() && first.has_foot()) return {pressure_on_foot(first)};
   Story sprung;
   for (const StagedRun& motion : stage.motions) sprung.push_back(sprung_coordinates(stage, motion));
   if (std::none_of(sprung.begin(), sprung.end(), [](const auto& plots) { return plots.empty(); })) return sprung;

@@ -10,6 +10,9 @@
 #include "picture/point.hpp"
 
 namespace chainreel {
+
+std::unique_ptr<const Layer> make_layer_ellipse_inside(const Stage& stage);
+
 namespace {
 
 using Eigen::Vector3d;

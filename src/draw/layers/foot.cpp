@@ -1,6 +1,7 @@
 // A foot on the ground and what the ground answers: an arrow that ends at the centre of pressure, which is marked, as long as
-// the force. It stands below the ground, along the line on which the force acts, where no leg hides it. Beyond the foot, where no ground could push, it is dashed; where the ground had to pull, there is
-// none. Then words say that the foot is held. A plumb line from the centre of mass shows where that stands beside the foot.
+// the force. It stands below the ground, along the line on which the force acts, where no leg hides it. The force that presses never
+// leaves the foot: what would have to press beside it is a ring there, and the foot is held by a pull at its other end, which is a dashed arrow with words that
+// no ground gives it. A plumb line from the centre of mass shows where that stands beside the foot.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,21 +22,21 @@ namespace {
 constexpr double kWeightArrow = 0.15;  // units of H: as long is the force that bears the weight
 constexpr double kBesideOthers = 0.55;  // ... of that, where panels or plots share the page: the robot is what one looks at
 constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones lead out of the scene
-constexpr double kHeldOff = 0.045;     // units of H: of the words that the foot is held, from its middle
-constexpr double kDepths[] = {0.05, 0.08, 0.12};  // units of H, below the ground
+constexpr double kDepths[] = {0.05, 0.08, 0.12};  // units of H, below the ground: of words that the foot is held
 constexpr double kBesideArrow = 0.03;  // units of H
+constexpr double kShortestTie = 0.01;  // ... of a line from there to the words
 constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
 constexpr double kPlumbLine = 0.0025;  // units of H
 
 // A run's foot, and what the ground answers at its samples.
 struct FootRun {
   struct Answer {
-    double place = 0;                                 // centre of pressure, m along the ground
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();  // in weights
-    bool is_shown = false;
+    FootHold hold;                // forces in weights
+    std::optional<double> beyond;  // m along the ground: the centre of pressure, where it is near the foot, but not in it
   };
 
   explicit FootRun(const StagedRun& motion);
+  const Answer& answer(int k) const { return answers[std::size_t(std::clamp(k, 0, int(answers.size()) - 1))]; }
   Eigen::Vector3d on_ground(double place) const { return place * ground.along + foot.height * ground.up; }
 
   double weight = 0;  // N
@@ -63,7 +64,10 @@ FootRun::FootRun(const StagedRun& motion)
     hold_as_then(system, *motion.simulation(), trajectory, t);
     const GroundLoad load = ground_load(system, ws, ground, foot.height, t, q, qd, qdd);
     if (!bears(load, foot)) held_from = std::min(held_from, k);
-    answers.push_back({load.cop, load.force / weight, presses_near(load, foot)});
+    FootHold hold = hold_of(load, foot, ground);
+    hold.force /= weight;
+    hold.pull /= weight;
+    answers.push_back({hold, hold.pull > 0 && presses_near(load, foot) ? std::optional(load.cop) : std::nullopt});
   }
   motion.simulation()->torque->leave_pieces();
 }
@@ -81,8 +85,9 @@ class FootLayer : public Layer {
   explicit FootLayer(const Stage& stage)
       : theme_(&stage.theme),
         page_(&stage.page),
-        held_(words(stage, "foot held: a real one turns")),
-        short_(words(stage, "foot held")),
+        held_(words(stage, "foot held by a pull no ground gives")),
+        short_(words(stage, "no ground pulls so")),
+        turned_(words(stage, "foot held: a real one turned")),
         names_center_(stage.shows("com") && stage.shows("legend")),
         arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
     for (const StagedRun& motion : stage.motions)
@@ -99,26 +104,19 @@ class FootLayer : public Layer {
     if (!names_center_) text.scales.push_back({ScaleEntry::Mark::center_of_mass, 0, theme_->ink, "centre of mass", kAfterVectors});
     const double force = round_length(kLegend / arrow_ * *weight_);
     text.scales.push_back({ScaleEntry::Mark::arrow, arrow_ * force / *weight_, theme_->constraint,
-                           "ground reaction " + format_shortest(force) + " N", kAfterScales, true});
-  }
-
-  // Its scale stands with it: while any run shows an arrow.
-  void draw_page(Picture& picture, const SharedPage& page, int k) const override {
-    const bool is_shown = std::any_of(runs_.begin(), runs_.end(), [k](const auto& one) {
-      const std::vector<FootRun::Answer>& answers = one.second.answers;
-      return answers[std::size_t(std::clamp(k, 0, int(answers.size()) - 1))].is_shown;
-    });
-    for (const PlacedEntry& entry : page.sheet.scales)
-      if (is_shown && entry.line.entry.by_frame) draw_entry(picture, entry.line, entry.left, *theme_);
+                           "ground reaction " + format_shortest(force) + " N", kAfterScales});
   }
 
   void measure(const Sight& sight, FitBox& box) const override {
     const auto known = runs_.find(&sight.motion);
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
-    const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(sight.k, 0, int(run.answers.size()) - 1))];
-    if (!answer.is_shown) return;
-    box.add({0, 0, arrow_ * std::min(kMostRoom, answer.force.dot(run.ground.up)), 0}, sight.camera.flat(run.on_ground(answer.place)));
+    const FootHold& hold = run.answer(sight.k).hold;
+    const auto hold_below = [&](double place, double weights) {
+      box.add({0, 0, arrow_ * std::min(kMostRoom, weights), 0}, sight.camera.flat(run.on_ground(place)));
+    };
+    hold_below(hold.place, hold.force.dot(run.ground.up));
+    if (hold.pull > 0) hold_below(hold.pull_place, hold.pull);
   }
 
   void draw_once(Picture& picture, const Panel& panel) const override {
@@ -139,19 +137,21 @@ class FootLayer : public Layer {
     const auto known = runs_.find(&panel.motion());
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
-    const FootRun::Answer& answer = run.answers[std::size_t(std::clamp(shot.k, 0, int(run.answers.size()) - 1))];
-    const Camera& camera = panel.camera();
-    const bool stands = answer.is_shown && answer.place >= run.foot.heel && answer.place <= run.foot.toe;
+    const FootRun::Answer& answer = run.answer(shot.k);
     draw_plumb_line(picture, run, shot);
-    if (shot.k >= run.held_from && !is_transparent(*page_)) add_held(run, camera, shot.labels);
-    if (!answer.is_shown) return;
-    const Point force = (arrow_ / camera.scale) * camera.project_vector(answer.force, camera.focus);
+    if (shot.k >= run.held_from && !is_transparent(*page_)) add_held(run, panel.camera(), answer.hold, shot.labels);
     const ChainLook& look = panel.look();
-    const Point pressure = camera.project(run.on_ground(answer.place));
-    draw_arrow(picture, pressure - force, force, {look.theme->constraint, look.marks, !stands, 0, look.theme->lines, look.theme->background}, panel.clip());
-    const double radius = look.marks * kPressure;
-    picture.add(Ellipse{pressure, {radius, 0}, {0, radius}, {stands ? look.theme->constraint : look.theme->background, look.theme->constraint, size::kLinkOutline}},
-                panel.clip());
+    ArrowStyle style{look.theme->constraint, look.marks, false, 0, look.theme->lines, look.theme->background};
+    const Point pressure = panel.camera().project(run.on_ground(answer.hold.place)), force = on_page(answer.hold.force, panel.camera());
+    draw_arrow(picture, pressure - force, force, style, panel.clip());
+    const auto mark = [&](Point at, Color fill) {
+      const double radius = look.marks * kPressure;
+      picture.add(Ellipse{at, {radius, 0}, {0, radius}, {fill, look.theme->constraint, size::kLinkOutline}}, panel.clip());
+    };
+    if (answer.hold.force.dot(run.ground.up) > 0) mark(pressure, look.theme->constraint);
+    if (answer.beyond) mark(panel.camera().project(run.on_ground(*answer.beyond)), look.theme->background);
+    style.dashed = true;
+    draw_arrow(picture, panel.camera().project(run.on_ground(answer.hold.pull_place)), pull_on_page(run, answer.hold, panel.camera()), style, panel.clip());
   }
 
  private:
@@ -168,27 +168,35 @@ class FootLayer : public Layer {
     draw_center_of_mass(picture, panel.camera().project(center), look, panel.clip());
   }
 
-  // A real foot would tip or rise there; this one is fixed to the ground.
-  void add_held(const FootRun& run, const Camera& camera, MarkLabels& labels) const {
-    const Point middle = camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));
-    std::vector<Rect> places = places_about(held_, middle, kHeldOff, unit(Point{-1, -1}));
-    // Else below the ground, on either side of the arrow, which may be long.
-    const auto add_below = [&](const TextLine& line) {
-      const Point half{line.box.width() / 2, line.box.height() / 2};
+  Point on_page(const Eigen::Vector3d& weights, const Camera& camera) const {
+    return (arrow_ / camera.scale) * camera.project_vector(weights, camera.focus);
+  }
+  Point pull_on_page(const FootRun& run, const FootHold& hold, const Camera& camera) const { return on_page(-hold.pull * run.ground.up, camera); }
+
+  // Below the ground, beside the pull that holds the foot, away from where it presses, with a line to it. Where none does any more a real foot has turned all the same.
+  void add_held(const FootRun& run, const Camera& camera, const FootHold& hold, MarkLabels& labels) const {
+    const bool is_pulled = hold.pull > 0;
+    const double from = is_pulled ? hold.pull_place : run.foot.heel;
+    const Point pulled = camera.project(run.on_ground(from)), away = pulled - camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));
+    const TextLine& line = is_pulled ? held_ : turned_;
+    std::vector<Rect> places;
+    const auto add_below = [&](const TextLine& words) {
+      const Point half{words.box.width() / 2, words.box.height() / 2};
       for (const double depth : kDepths)
-        for (const double side : {1.0, -1.0}) {
-          const Point center = middle + Point{side * (half.x + kBesideArrow), -depth};
+        for (const double side : {std::copysign(1.0, away.x), -std::copysign(1.0, away.x)}) {
+          const Point center = pulled + Point{side * (half.x + kBesideArrow), -depth};
           places.push_back({center.x - half.x, center.y - half.y, center.x + half.x, center.y + half.y});
         }
     };
-    add_below(held_);
+    add_below(line);
     add_below(short_);
-    labels.add({"foot held", held_, std::move(places), {}, {}, {short_}});
+    const Point middle = pulled + 0.5 * pull_on_page(run, hold, camera);
+    labels.add({"foot held", line, std::move(places), {}, Tie{middle, kBesideArrow / 2, theme_->muted, {}, kShortestTie}, {short_}});
   }
 
   const Theme* theme_;
   const Scene* page_;
-  TextLine held_, short_;  // short_: where there is no room for all
+  TextLine held_, short_, turned_;  // short_: where there is no room for all
   bool names_center_;  // another layer does
   double arrow_;  // units of H: the weight's
   std::map<const StagedRun*, FootRun> runs_;

@@ -19,7 +19,6 @@ struct ScaleEntry {
   Color color;
   std::string text;  // "weight 10 N"
   int order = 0;     // entries stand by it, from left to right
-  bool by_frame = false;  // its layer draws it, at the frames that show what it speaks of
 };
 // Entries behind those of vectors, and behind all that have a measure.
 inline constexpr int kAfterVectors = 1000, kAfterScales = 2000;

@@ -324,7 +324,7 @@ Sheet lay_out_sheet(const SheetText& text, double aspect, double text_scale, con
 void draw_sheet(Picture& picture, const Sheet& sheet) {
   for (const PlacedText& text : sheet.texts) draw_text(picture, text.line, text.anchor);
   for (const PlacedEntry& entry : sheet.scales)
-    if (!entry.line.entry.by_frame) draw_entry(picture, entry.line, entry.left, *sheet.theme);
+    draw_entry(picture, entry.line, entry.left, *sheet.theme);
   if (sheet.logo) draw_logo(picture, *sheet.logo->image, sheet.logo_box, sheet.logo->page_height);
   if (sheet.bar) draw_scale_bar(picture, *sheet.bar, sheet.bar_length, sheet.theme->ellipse);
 }

@@ -79,6 +79,19 @@ bool presses_near(const GroundLoad& load, const Foot& foot) {
   return load.grf > 0 && std::abs(load.cop - (foot.heel + foot.toe) / 2) < kFarthest * (foot.toe - foot.heel);
 }
 
+// As two forces at the ends of the foot: where one of them pulls and the other presses, no pull nearer to the middle is smaller. Where
+// both pull, or press, they are as good as one between them.
+FootHold hold_of(const GroundLoad& load, const Foot& foot, const GroundAxes& axes) {
+  const double length = foot.toe - foot.heel;
+  const double at_heel = (foot.toe * load.grf - load.moment) / length, at_toe = (load.moment - foot.heel * load.grf) / length;
+  if (at_heel == 0 && at_toe == 0) return {(foot.heel + foot.toe) / 2, load.force, 0, 0};
+  if (at_heel >= 0 && at_toe >= 0) return {load.cop, load.force, 0, 0};
+  if (at_heel <= 0 && at_toe <= 0) return {load.cop, load.force - load.grf * axes.up, load.cop, -load.grf};
+  const bool is_heel = at_heel < 0;
+  const double pull = -std::min(at_heel, at_toe);
+  return {is_heel ? foot.toe : foot.heel, load.force + pull * axes.up, is_heel ? foot.heel : foot.toe, pull};
+}
+
 void GroundSlots::add(const std::string& name, int slot) {
   if (name == "cop") cop = slot;
   if (name == "grf") grf = slot;
@@ -144,8 +157,8 @@ GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes
   const Wrench on_robot = compute_ground_reaction(chain, ws, q, qd, qdd);
   const Eigen::Vector3d force = on_robot.force - pushed.force;
   const double moment = axes.along.cross(axes.up).dot(on_robot.moment - pushed.moment);
-  const double up = force.dot(axes.up);
-  return {(moment + height * force.dot(axes.along)) / up, up, force};
+  const double up = force.dot(axes.up), on_ground = moment + height * force.dot(axes.along);
+  return {on_ground / up, up, force, on_ground};
 }
 
 GroundLoad ground_load(ChainSystem& system, Workspace& ws, const GroundAxes& axes, double height, double t, ConstVec q,

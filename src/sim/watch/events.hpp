@@ -55,6 +55,7 @@ struct GroundLoad {
   double cop = 0;
   double grf = 0;  // F_up, N: below zero the ground would have to pull, and who stands on it takes off
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  // F
+  double moment = 0;  // N m, about the place 0 on the ground, from `along` to `up`: cop grf, finite where cop is not
 };
 // The motion is the chain's own under some torque; `pushed`: what else acts from outside.
 GroundLoad ground_load(const Chain& chain, Workspace& ws, const GroundAxes& axes, double height, ConstVec q,
@@ -68,6 +69,15 @@ bool bears(const GroundLoad& load, const Foot& foot);
 // Whether it presses (a ground cannot pull) within three of the foot's lengths of its middle: a centre of pressure farther off tells
 // nothing, and none is there without a number.
 bool presses_near(const GroundLoad& load, const Foot& foot);
+
+// What holds a foot where it is: the same force and moment as the ground's, made of what presses within the foot and the least pull
+// within it that is left to explain. No ground gives that pull.
+struct FootHold {
+  double place = 0;  // m along the ground, within the foot
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  // there; against gravity it is not below zero
+  double pull_place = 0, pull = 0;                  // N, with gravity; 0 where the foot can stand
+};
+FootHold hold_of(const GroundLoad& load, const Foot& foot, const GroundAxes& axes);
 
 // Where a probe holds what the ground exerts; -1: nothing reads it.
 struct GroundSlots {

@@ -65,7 +65,6 @@ TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {
     return film(simulation).frame(k).items.size();
   };
   EXPECT_GT(shapes(&simulation_, 60), shapes(nullptr, 60)) << "negative control: nothing to compute it from";
-  // At the end the fixed foot is pulled down: no ground does that.
   const Color force = theme_named("light").constraint;
   const auto forces = [&](int k) {
     const Picture frame = film(&simulation_).frame(k);
@@ -73,7 +72,77 @@ TEST_F(FallingHuman, HasAnArrowWhereTheGroundPushes) {
     return std::ranges::count_if(discs, [&](const Ellipse& disc) { return disc.paint.stroke == force; });
   };
   EXPECT_EQ(forces(60), 1);
-  EXPECT_EQ(forces(run_.size() - 1), 0);
+  EXPECT_EQ(forces(run_.size() - 1), 1);
+}
+
+// At the end the fixed foot is pulled down at its heel, by an arrow into the ground, and the ground presses at the toe.
+TEST_F(FallingHuman, IsHeldByAPullAtTheHeel) {
+  scene_.draw = {"chain"};
+  const Film film = this->film(&simulation_);
+  const Color force = theme_named("light").constraint;
+  struct Arrow {
+    double pressed = NAN, ground = NAN, left = HUGE_VAL, below = HUGE_VAL;
+  };
+  const auto arrow_at = [&](int k) {
+    Arrow arrow;
+    Picture frame = film.frame(k);
+    std::erase_if(frame.items, [](const Item& item) { return item.clip < 0; });
+    for (const Ellipse& disc : test::all_of<Ellipse>(frame))
+      if (disc.paint.fill == force) arrow.pressed = disc.center.x, arrow.ground = disc.center.y;
+    for (const Polygon& head : test::all_of<Polygon>(frame))
+      if (head.paint.fill == force && head.corners[0].x < arrow.left) arrow.left = head.corners[0].x, arrow.below = head.corners[0].y;
+    return arrow;
+  };
+  const Arrow stands = arrow_at(60), held = arrow_at(run_.size() - 1);
+  EXPECT_NEAR(stands.left, stands.pressed, 0.002) << "negative control: the only arrow ends where the ground presses";
+  const Camera& camera = film.panel(0).camera();
+  EXPECT_NEAR(held.pressed, camera.project({0.1995, 0, 0}).x, 1e-9) << "the toe";
+  EXPECT_NEAR(held.left, camera.project({-0.0665, 0, 0}).x, 1e-9) << "the heel";
+  EXPECT_LT(held.below, held.ground - 0.02);
+}
+
+// The height that counts as a fall is a line with the event's name, which the ring at the hip has come to at the end.
+TEST_F(FallingHuman, MeetsTheHeightThatCountsAsAFall) {
+  scene_.draw = {"chain"};
+  scene_.layout = PageLayout::scene;
+  const Color ink = theme_named("light").ink, muted = theme_named("light").muted;
+  const auto rings = [&](const Film& film, int k) {
+    std::vector<Point> found;
+    for (const Ellipse& ring : test::all_of<Ellipse>(film.frame(k)))
+      if (ring.paint.stroke == ink && ring.paint.fill == theme_named("light").background && norm(ring.u) < 0.009 && norm(ring.u) > 0.008) found.push_back(ring.center);
+    return found;
+  };
+  const auto has_line = [&](const Film& film, double y) {
+    return std::ranges::any_of(test::all_of<Capsule>(film.frame(0)), [&](const Capsule& dash) {
+      return dash.paint.fill == muted && std::abs(dash.a.y - y) < 1e-9 && std::abs(dash.b.y - y) < 1e-9;
+    });
+  };
+  {
+    const Film film = this->film(&simulation_);
+    const double height = film.panel(0).camera().project({0, 0.5, 0}).y;
+    EXPECT_TRUE(has_line(film, height));
+    EXPECT_THAT(test::words_of(film.frame(0)), HasSubstr("hip where the knee was"));
+    ASSERT_EQ(rings(film, 0).size(), 1);
+    EXPECT_GT(rings(film, 0).front().y, height + 0.1);
+    ASSERT_EQ(rings(film, run_.size() - 1).size(), 1);
+    EXPECT_NEAR(rings(film, run_.size() - 1).front().y, height, 1e-6);  // the instant is known to 1e-12 s
+  }
+  // Negative controls: what only is marked counts as no fall, and what two numbers decide on has no height.
+  for (const auto& [kind, when] : {std::pair{EventKind::stop, "y_H < 0.5"}, {EventKind::fall, "y_H + 0.001 * q1 < 0.5"}, {EventKind::fall, "y_H > 3"}}) {
+    scene_.events.back().kind = kind;
+    scene_.events.back().when = when;
+    const Simulation other = prepare(scene_, false);
+    const Film film = this->film(&other);
+    EXPECT_EQ(rings(film, 0).size(), 0) << when;
+  }
+}
+
+// Without a plot of the scene's own the page tells where the ground presses, between the ends of the foot.
+TEST_F(FallingHuman, IsToldByTheCentreOfPressure) {
+  const std::string words = test::words_of(film(&simulation_).static_layer());
+  for (const char* word : {"centre of pressure", "heel", "toe"}) EXPECT_THAT(words, HasSubstr(word));
+  scene_.layout = PageLayout::scene;
+  EXPECT_THAT(test::words_of(film(&simulation_).static_layer()), Not(HasSubstr("heel")));
 }
 
 // Its line ends on the ground below the centre of mass: within the foot at the start, ahead of it in the end.
@@ -106,6 +175,7 @@ TEST_F(FallingHuman, IsSaidToBeHeldWhereARealFootWouldTip) {
 
 TEST_F(FallingHuman, TheGroundPushesFromBelowWhereThePressureIsMarked) {
   scene_.draw = {"chain"};
+  scene_.layout = PageLayout::scene;
   const Film film = this->film(&simulation_);
   const Color force = theme_named("light").constraint;
   std::optional<Point> mark;
@@ -114,7 +184,7 @@ TEST_F(FallingHuman, TheGroundPushesFromBelowWhereThePressureIsMarked) {
     if (disc.paint.stroke == force) mark = disc.center;
   ASSERT_TRUE(mark);
   double highest = -HUGE_VAL, lowest = HUGE_VAL;
-  Picture in_scene = frame;  // the arrow of its scale is in the foot
+  Picture in_scene = frame;  // the arrow of its scale is below it
   std::erase_if(in_scene.items, [](const Item& item) { return item.clip < 0; });
   for (const Polygon& part : test::all_of<Polygon>(in_scene))
     for (int i = 0; part.paint.fill == force && i < part.count; ++i) highest = std::max(highest, part.corners[std::size_t(i)].y);

@@ -104,6 +104,51 @@ TEST(CenterOfPressure, CanBeReadByEvents) {
   EXPECT_NEAR(nearest, 0.4, 1e-11);
 }
 
+// The hold is the load again, and no set of forces within the foot pulls less: of two that press or pull at places of a grid none does.
+TEST(FootHold, IsTheLoadWithTheLeastPull) {
+  const GroundAxes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  const Foot foot{-0.07, 0.2, 0};
+  test::Random random(5);
+  int pulls = 0, stands = 0;
+  for (int i = 0; i < 400; ++i) {
+    const auto number = test::random_vector(3, random, 1);
+    const double up = 700 * number[0], cop = 0.5 * number[1];
+    const GroundLoad load{cop, up, {200 * number[2], up, 0}, cop * up};
+    const FootHold hold = hold_of(load, foot, axes);
+    EXPECT_LT((hold.force - hold.pull * axes.up - load.force).norm(), 1e-9);
+    EXPECT_NEAR(hold.place * hold.force.y() - hold.pull_place * hold.pull, load.moment, 1e-9);
+    EXPECT_GE(hold.force.y(), -1e-9);
+    EXPECT_GE(hold.pull, 0);
+    for (const double place : {hold.place, hold.pull > 0 ? hold.pull_place : 0}) {
+      EXPECT_GE(place, foot.heel - 1e-12);
+      EXPECT_LE(place, foot.toe + 1e-12);
+    }
+    EXPECT_EQ(hold.pull == 0, bears(load, foot));
+    (hold.pull > 0 ? pulls : stands) += 1;
+    constexpr int kPlaces = 20;
+    const auto at = [&](int k) { return foot.heel + (foot.toe - foot.heel) * k / kPlaces; };
+    for (int a = 0; a < kPlaces; ++a)
+      for (int b = a + 1; b <= kPlaces; ++b) {
+        const double at_b = (load.moment - at(a) * up) / (at(b) - at(a)), at_a = up - at_b;
+        EXPECT_GE(-std::min(at_a, 0.0) - std::min(at_b, 0.0), hold.pull - 1e-9);
+      }
+  }
+  EXPECT_GT(pulls, 50);
+  EXPECT_GT(stands, 50);
+}
+
+// Where the force against gravity vanishes the centre of pressure is nowhere, and what holds the foot goes on evenly.
+TEST(FootHold, GoesOnWhereTheCentreOfPressureIsNowhere) {
+  const GroundAxes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  const Foot foot{-0.07, 0.2, 0};
+  for (const double up : {1e-9, 0.0, -1e-9}) {
+    const FootHold hold = hold_of({40 / up, up, {-200, up, 0}, 40}, foot, axes);
+    EXPECT_NEAR(hold.pull, 40 / 0.27, 1e-6);
+    EXPECT_EQ(hold.pull_place, foot.heel);
+    EXPECT_EQ(hold.place, foot.toe);
+  }
+}
+
 TEST(GroundReaction, IsTheSameByBothAlgebras) {
   const Simulation run = falling_human();
   const Chain spatial = test::without_planar_form(run.chain);

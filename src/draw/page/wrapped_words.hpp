@@ -1,0 +1,13 @@
+// Words on several lines that are laid out as one.
+#pragma once
+
+#include <string>
+
+#include "picture/text.hpp"
+
+namespace chainreel {
+
+// On as few lines as the width needs, about equally long.
+TextLine lay_out_within(const Fonts& fonts, const std::string& text, const TextStyle& style, double width);
+
+}  // namespace chainreel
