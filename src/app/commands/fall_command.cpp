@@ -236,6 +236,25 @@ std::string csv_of(const FallOptions& options, const FallTable& table) {
   return text;
 }
 
+constexpr std::size_t kDownCurve = 0, kTipsCurve = 1;  // of the chart
+constexpr std::size_t kNoCurveOfChart = 2;              // a colour that neither has
+
+// What a run is that has no instant of a fall, in the order of the ends.
+std::vector<ResponseLack> lacks_of(const FallTable& table) {
+  const std::string within = format_quantity(table.duration, "s"), not_down = "not down within " + within;
+  std::vector<ResponseLack> lacks(std::size_t(FallEnd::stands) + 1, {""});
+  const auto is = [&](FallEnd end) -> ResponseLack& { return lacks[std::size_t(end)]; };
+  is(FallEnd::falls) = {"no instant"};
+  is(FallEnd::stopped) = {"stopped", Marker::open_square};
+  is(FallEnd::fails) = {"failed", Marker::plus};
+  is(FallEnd::lies) = {"lies from the start", Marker::open_diamond, kDownCurve};
+  is(FallEnd::stays_up) = {not_down};
+  is(FallEnd::takes_off) = {"takes off, " + not_down, Marker::open_triangle_down, kTipsCurve};
+  is(FallEnd::tips) = {"tips, " + not_down, Marker::open_triangle, kTipsCurve};
+  is(FallEnd::stands) = {"stands for " + within, Marker::diamond, kNoCurveOfChart};
+  return lacks;
+}
+
 // When runs fall and feet tip, against the key; where how they end changes.
 ResponseChart chart_of(const FallTable& table, const Scene& scene) {
   ResponseChart chart;
@@ -248,14 +267,14 @@ ResponseChart chart_of(const FallTable& table, const Scene& scene) {
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const FallRow& row = table.rows[i];
     const double x = table.sweep.numbers[i] * degrees;
-    falls.points.push_back({x, row.fall_time});
+    falls.points.push_back({x, row.fall_time, false, std::size_t(what_became_of(table, row))});
     tips.points.push_back({x, row.tips});
   }
   const auto any = [](const ResponseCurve& curve) { return std::ranges::any_of(curve.points, [](const ResponsePoint& one) { return one.y.has_value(); }); };
   instants.curves.push_back(falls);
   if (any(tips)) instants.curves.push_back(tips);
   chart.panels.push_back(instants);
-  chart.missing = "not down within " + format_quantity(table.duration, "s");
+  chart.lacks = lacks_of(table);
   if (any(tips)) chart.footer = "Behind tipping the foot is held where a real one turns.";
   for (const FallEdge& edge : table.edges) {
     const double x = (edge.before + edge.behind) / 2 * degrees;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFlat = 1e-3;   // of its size: the least range that an axis has about curves that do not change
 constexpr double kBeside = 0.04; // of the range in x: air beside the first and the last run
-constexpr double kAir = 0.06;    // of the range in y: above the highest and below the lowest mark, so that none lies on the frame
+constexpr double kAirOfValues = 0.06;    // of the range in y: above the highest and below the lowest mark, so that none lies on the frame
 constexpr double kSame = 1e-9;   // of their size: curves no farther apart are one
 constexpr double kStrip = 1.9;   // of a mark: the height of the strip of crosses
 constexpr double kLeastPanel = 9;  // ems of the numbers: the height with words below which a panel cannot be read
@@ -29,7 +29,7 @@ Axis y_axis(const ResponsePanel& panel) {
     const double half = size > 0 ? kFlat * size : 0.5;
     low -= half, high += half;
   }
-  const double air = kAir * (high - low);
+  const double air = kAirOfValues * (high - low);
   if (!(panel.from_zero && low == 0)) low -= air;
   return rounded_out({Scale::linear, low, high + air, panel.y_title});
 }
@@ -91,7 +91,7 @@ class PanelDrawing {
     Axis x = x_axis(data.x);
     if (!has_x_title) x.title.clear();
     frame_ = lay_out_plot({area.x0, area.y0, area.x1 - labels, area.y1 - strip_}, x, y_axis(panel_), style_);
-    if (strip_ > 0 && !title_has_room_beside()) missing_row_ = kLinePitch * style_.text(size::kTick), frame_.box.y1 -= missing_row_;
+    if (strip_ > 0) lay_out_lacks();
   }
 
   PlotFrame& frame() { return frame_; }
@@ -174,10 +174,29 @@ class PanelDrawing {
     }
   }
 
-  TextLine missing_words() const { return lay_out_text(*look_.fonts, data_.missing, {Face::label, style_.text(size::kTick), look_.theme->muted, Align::left}); }
-  double missing_width() const { return marker_size() + size::kMarkToText + missing_words().advance; }
   TextLine title_line() const { return lay_out_words(*look_.fonts, panel_.y_title, {Face::label, style_.text(size::kAxis), look_.theme->ink, Align::left}); }
-  bool title_has_room_beside() const { return title_line().advance + size::kGutter + missing_width() <= frame_.box.x1 - area_.x0; }
+  TextLine words_of(const ResponseLack& lack) const { return lay_out_text(*look_.fonts, lack.words, {Face::label, style_.text(size::kTick), look_.theme->muted, Align::left}); }
+  double width_of(const ResponseLack& lack) const { return marker_size() + size::kMarkToText + words_of(lack).advance; }
+  const ResponseLack& lack_of(const ResponsePoint& point) const { return data_.lacks[point.lack]; }
+
+  // What the marks of the strip mean, those that occur: beside the title where there is room for all, else in rows of their own below it.
+  void lay_out_lacks() {
+    std::vector<const ResponseLack*> found;
+    for (const ResponseLack& lack : data_.lacks)
+      if (std::ranges::any_of(panel_.curves.front().points, [&](const ResponsePoint& point) { return !point.y && &lack_of(point) == &lack; })) found.push_back(&lack);
+    double taken = 0;
+    const double whole = frame_.box.x1 - area_.x0;
+    lack_rows_ = {{}};
+    for (const ResponseLack* lack : found) {
+      const double width = width_of(*lack);
+      if (taken > 0 && taken + size::kGutter + width > whole) lack_rows_.emplace_back(), taken = 0;
+      taken += (taken > 0 ? size::kGutter : 0) + width;
+      lack_rows_.back().push_back(lack);
+    }
+    const bool is_beside = lack_rows_.size() == 1 && title_line().advance + size::kGutter + taken <= whole;
+    lack_rows_height_ = is_beside ? 0 : double(lack_rows_.size()) * kLinePitch * style_.text(size::kTick);
+    frame_.box.y1 -= lack_rows_height_;
+  }
 
   // Runs without a value stand above the axis, not on it, where they would be at its number; what they are is said above, at the right.
   void draw_strip(Picture& picture) const {
@@ -185,16 +204,24 @@ class PanelDrawing {
     const Rect strip{frame_.box.x0, frame_.box.y1, frame_.box.x1, frame_.box.y1 + strip_};
     picture.add(Cells{strip, 1, 1, {look_.theme->base.faded(kStripOpacity)}});
     for (const ResponsePoint& point : panel_.curves.front().points)
-      if (!point.y) draw_cross(picture, {frame_.at_x(point.x), (strip.y0 + strip.y1) / 2});
-    const double base = strip.y1 + title_above_frame(style_);
-    draw_text(picture, title_line(), {area_.x0, base + missing_row_});
-    const double left = strip.x1 - missing_width();
-    draw_cross(picture, {left + marker_size() / 2, base + kCapHeight * style_.text(size::kTick) / 2});
-    draw_text(picture, missing_words(), {left + marker_size() + size::kMarkToText, base});
+      if (!point.y) draw_lack(picture, lack_of(point), {frame_.at_x(point.x), (strip.y0 + strip.y1) / 2});
+    const double base = strip.y1 + title_above_frame(style_), em = style_.text(size::kTick);
+    draw_text(picture, title_line(), {area_.x0, base + lack_rows_height_});
+    for (std::size_t row = 0; row < lack_rows_.size(); ++row) {
+      const double y = base + double(lack_rows_.size() - 1 - row) * kLinePitch * em;
+      double right = strip.x1;
+      for (std::size_t i = lack_rows_[row].size(); i-- > 0;) {
+        const ResponseLack& lack = *lack_rows_[row][i];
+        const double left = right - width_of(lack);
+        draw_lack(picture, lack, {left + marker_size() / 2, y + kCapHeight * em / 2});
+        draw_text(picture, words_of(lack), {left + marker_size() + size::kMarkToText, y});
+        right = left - size::kGutter;
+      }
+    }
   }
 
-  void draw_cross(Picture& picture, Point at) const {
-    draw_marker(picture, at, Marker::cross, marker_size(), look_.theme->muted, look_.theme->background);
+  void draw_lack(Picture& picture, const ResponseLack& lack, Point at) const {
+    draw_marker(picture, at, lack.marker, marker_size(), lack.curve ? style_of(*lack.curve).color : look_.theme->muted, look_.theme->background);
   }
 
   // A leader from a mark before the last run would be read as a curve.
@@ -231,7 +258,8 @@ class PanelDrawing {
   PlotStyle style_;
   Rect area_;
   bool is_named_;
-  double strip_ = 0, missing_row_ = 0;
+  double strip_ = 0, lack_rows_height_ = 0;
+  std::vector<std::vector<const ResponseLack*>> lack_rows_;
   PlotFrame frame_;
   Obstacles taken_;
 };

@@ -13,6 +13,7 @@ struct ResponsePoint {
   double x = 0;
   std::optional<double> y{};  // nothing of a run that failed or has no such number
   bool is_doubtful = false;
+  std::size_t lack = 0;  // without a value: which of the chart's
 };
 
 struct ResponseCurve {
@@ -33,6 +34,13 @@ struct ResponsePanel {
   std::vector<ResponseCurve> curves;
 };
 
+// Why a run has no value: its mark in the strip above the panel.
+struct ResponseLack {
+  std::string words;
+  Marker marker = Marker::cross;
+  std::optional<std::size_t> curve{};  // the colour of that curve; none: muted
+};
+
 struct ResponseChart {
   std::string title, subtitle;
   std::string warning{};  // what speaks against the numbers: stands on every page
@@ -40,11 +48,11 @@ struct ResponseChart {
   std::vector<ResponsePanel> panels;  // one below the other
   std::string footer;
   std::string needed{};  // of the footer, in few words: what a small page tells
-  std::string missing = "no value";  // what runs have whose mark is a cross
+  std::vector<ResponseLack> lacks{{"no value"}};
   std::vector<ResponseEdge> edges{};
 };
 
-// Runs without a value are crosses in a strip above the panel, doubtful ones rings, which no line joins. Curves of one panel that are equal are one
+// Runs without a value have marks in a strip above the panel, doubtful ones rings, which no line joins. Curves of one panel that are equal are one
 // with all names. A curve that ends before the last run is named beside its last mark. Panels that have no room are left out, which the foot says.
 Picture response_chart(const ResponseChart& data, const ChartLook& look);
 

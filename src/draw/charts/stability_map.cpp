@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "picture/plot_hatch.hpp"
 
 namespace chainreel {
@@ -158,13 +159,21 @@ void draw_boundary_label(Picture& picture, const PlotFrame& frame, const MapBoun
   }
 }
 
+// Hundreds of per cent as plain numbers: an exponent would reach into the title above.
+std::vector<Tick> ticks_of_bar(const Axis& errors) {
+  std::vector<Tick> ticks = ticks_of(errors, 6);
+  for (Tick& tick : ticks)
+    if (!tick.superscript.empty() && tick.value > 1 && tick.value < 1e4) tick = {tick.value, format_significant(tick.value, 1), ""};
+  return ticks;
+}
+
 void draw_color_bar(Picture& picture, const Rect& bar, const Axis& errors, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   Cells cells{bar, 1, kBarSteps, {}};
   for (int i = 0; i < kBarSteps; ++i) cells.colors.push_back(map_color((i + 0.5) / kBarSteps));
   picture.add(std::move(cells));
   const PlotFrame frame{errors, errors, bar};
-  for (const Tick& tick : ticks_of(errors, 6)) {
+  for (const Tick& tick : ticks_of_bar(errors)) {
     const double y = frame.at_y(tick.value);
     if (tick.label.empty()) continue;
     picture.add(Capsule{
@@ -175,7 +184,7 @@ void draw_color_bar(Picture& picture, const Rect& bar, const Axis& errors, const
 
 double widest_tick(const Axis& errors, const PlotStyle& style) {
   double widest = 0;
-  for (const Tick& tick : ticks_of(errors, 6)) widest = std::max(widest, tick_label_width(tick, style));
+  for (const Tick& tick : ticks_of_bar(errors)) widest = std::max(widest, tick_label_width(tick, style));
   return widest;
 }
 
