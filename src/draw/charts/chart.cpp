@@ -229,8 +229,9 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   add(kGuidesWords);
   if (triangles) add("triangles: slope of an order");
   std::string others;
+  int number = 0;
   for (const ChartCurve& curve : data.curves)
-    if (!curve.is_lit) others += (others.empty() ? "grey: " : ", ") + title_of(curve);
+    if (!curve.is_lit) others += (others.empty() ? "grey: " : ", ") + std::to_string(++number) + " " + title_of(curve);
   add(others);
   if (any_failed(data)) add("crosses at the right edge: runs that failed or are lost");
   add(data.machine);

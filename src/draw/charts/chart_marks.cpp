@@ -259,12 +259,14 @@ bool draw_word_beside(Picture& picture, const std::string& text, Color color, Po
 }
 
 // With which steps or tolerances highlighted curves begin and end; and the names of the others, since
-// grey does not tell them apart, as near to their most exact ends as there is room.
+// grey does not tell them apart, as near to their most exact ends as there is room. Where that is too little for a name,
+// and the foot tells their numbers, these.
 void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, Obstacles& obstacles,
                     const ChartLook& look) {
   for (const bool lit : {true, false})
-    for (std::size_t k = 0; k < data.curves.size(); ++k) {
+    for (std::size_t k = 0, greys = 0; k < data.curves.size(); ++k) {
       const ChartCurve& curve = data.curves[k];
+      if (!curve.is_lit) ++greys;
       const ChartPoint *first = nullptr, *last = nullptr;
       for (const ChartPoint& point : curve.points) {
         if (point.failed || point.is_apart || !(point.error >= frame.x.low) || !frame.can_show({point.error, cost_of(point, cost)})) continue;
@@ -279,7 +281,10 @@ void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecisio
           if (!point.failed && !point.is_apart && point.error >= first->error && frame.can_show({point.error, cost_of(point, cost)})) points.push_back(&point);
         std::ranges::stable_sort(points, {}, &ChartPoint::error);
         const std::string name = without_formulas(curve.title.empty() ? curve.method : curve.title);
-        std::ranges::any_of(points, [&](const ChartPoint* point) { return draw_word_beside(picture, name, look.theme->muted, place(*point), obstacles, look); });
+        const auto has_room = [&](const std::string& word) {
+          return std::ranges::any_of(points, [&](const ChartPoint* point) { return draw_word_beside(picture, word, look.theme->muted, place(*point), obstacles, look); });
+        };
+        if (!has_room(name) && !look.is_small) has_room(std::to_string(greys));
         continue;
       }
       const Color color = curve_style(curve.look < 0 ? int(k) : curve.look, *look.theme).color;
