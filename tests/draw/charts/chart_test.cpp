@@ -402,6 +402,25 @@ TEST(ResponseChart, HasAMarkARunAndGapsWhereThereIsNone) {
   EXPECT_NO_THROW(response_chart(data, look_of(dark_theme()))) << "nothing to show";
 }
 
+// Runs have the marks of what they lack, and those that occur are told, in rows of their own where the title leaves no room.
+TEST(ResponseChart, TellsWhatRunsWithoutAValueAre) {
+  ResponseChart data{"Falls", "4 runs", "", {Scale::linear, 0, 3, "k"}, {{"instant [s]", true, {}}}, ""};
+  data.lacks = {{"failed"}, {"tips, not down within 5 s", Marker::disc, 1}, {"stands for 5 s", Marker::disc, 2}};
+  data.panels[0].curves = {{"down", {{0, 1.0}, {1, {}, false, 1}, {2, {}, false, 2}, {3, {}, false, 2}}}, {"tips", {{0, 1.0}, {1, 1.0}, {2, {}}, {3, {}}}}};
+  for (const double text_scale : {1.0, 2.2}) {
+    const Picture picture = response_chart(data, look_of(light_theme(), text_scale));
+    expect_words_on_page(picture);
+    EXPECT_TRUE(says(picture, "tips, not down within 5 s"));
+    EXPECT_TRUE(says(picture, "stands for 5 s"));
+    EXPECT_FALSE(says(picture, "failed")) << "negative control: no run has";
+    const auto discs_of = [&](std::size_t curve) {
+      return all_of<Ellipse>(picture, [&](const Ellipse& disc) { return disc.paint.fill == light_theme().curve[curve]; }).size();
+    };
+    EXPECT_EQ(discs_of(1), 2u) << "a run, and what is said of it";
+    EXPECT_EQ(discs_of(2), 3u);
+  }
+}
+
 TEST(StabilityMap, ColoursCellsByErrorAndHatchesFailures) {
   const StabilityMap data = sample_map(12, 8);
   const Picture picture = stability_map(data, look_of(light_theme()));
