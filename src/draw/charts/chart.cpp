@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/format.hpp"
 #include "draw/charts/lit_colours.hpp"
 #include "picture/formula_words.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 // A share of the page's width; where it is not enough for all panels, they share the labels of the last.
 constexpr double kMostForLabels = 0.30;
 constexpr double kQuietMarker = 0.7;
-constexpr double kLeastPanel = 20;  // ems of a tick's text, on paper
+constexpr double kNarrowestPanel = 20;  // ems of a tick's text, on paper
 constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
@@ -244,7 +245,7 @@ std::span<const ChartCost> readable_panels(std::span<const ChartCost> panels, co
   const Rect area{size::kMargin, size::kMargin, look.width() - size::kMargin, look.height - size::kMargin};
   const PlotStyle style = look.plot_style();
   const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, style));
-  return columns.panels.front().width() < kLeastPanel * style.text(size::kTick) ? panels.first(1) : panels;
+  return columns.panels.front().width() < kNarrowestPanel * style.text(size::kTick) ? panels.first(1) : panels;
 }
 
 }  // namespace
