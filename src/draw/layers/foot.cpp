@@ -180,6 +180,7 @@ class FootLayer : public Layer {
     const Point pulled = camera.project(run.on_ground(from)), away = pulled - camera.project(run.on_ground((run.foot.heel + run.foot.toe) / 2));
     const TextLine& line = is_pulled ? held_ : turned_;
     std::vector<Rect> places;
+    const Point pressed = camera.project(run.on_ground(hold.place)), force = on_page(hold.force, camera);
     const auto add_below = [&](const TextLine& words) {
       const Point half{words.box.width() / 2, words.box.height() / 2};
       for (const double depth : kDepths)
@@ -187,6 +188,9 @@ class FootLayer : public Layer {
           const Point center = pulled + Point{side * (half.x + kBesideArrow), -depth};
           places.push_back({center.x - half.x, center.y - half.y, center.x + half.x, center.y + half.y});
         }
+      // Else beyond the arrow of what presses, which may be long.
+      const double right = std::max({pulled.x, pressed.x, pressed.x - force.x}) + kBesideArrow + half.x;
+      for (const double depth : kDepths) places.push_back({right - half.x, pulled.y - depth - half.y, right + half.x, pulled.y - depth + half.y});
     };
     add_below(line);
     add_below(short_);
