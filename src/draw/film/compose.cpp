@@ -129,6 +129,16 @@ struct Layout {
   Story story;
 };
 
+// Whether what happens can be told by its name below each scene, as small as can be read: beside a plot the row is narrower.
+bool notes_have_room(const Composition& composition) {
+  const Stage& stage = *composition.stage;
+  const TextStyle style{Face::label, least_word(stage.page.video), stage.theme.ink, Align::left};
+  for (std::size_t i = 0; i < composition.view.cells.size(); ++i)
+    for (const EventEntry& event : stage.motions[i].scene().events)
+      if (lay_out_text(stage.fonts, event.title(), style).advance > composition.view.cells[i].note.width()) return false;
+  return true;
+}
+
 // With a plot where the motion keeps its size. `plain`: without one; it becomes what is shown.
 Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
   const bool is_comparison = plain.stage->is_comparison();
@@ -149,6 +159,7 @@ Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
       Composition told = with_wide_plots(with_plot, film, story);
       if (told.left_out != plain.left_out || !(told.view.camera.scale >= kept * plain.view.camera.scale)) continue;
       if (page.video.least_text > 0 && page.plot.empty() && !lack_of_room(told).what.empty()) continue;
+      if (page.plot.empty() && !notes_have_room(told)) continue;
       plain = std::move(told);
       return {with_plot, story};
     } catch (const Error& error) {
