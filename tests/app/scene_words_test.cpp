@@ -117,10 +117,11 @@ TEST_P(WordsOfEveryScene, LieOnNothingAndDoNotJump) {
   // rrr_torque, at 20 rad/s. A crank sweeps over every place
   // about its joint, twice or more a second, and the word of its torque fades out of its way; that of slider_crank is left by its damper hardly
   // anything twice a turn, too. The end of rr_forces moves at more
-  // than 5 m/s in a quarter of the frames, and with it the weight and the velocity that act there.
+  // than 5 m/s in a quarter of the frames, and with it the weight and the velocity that act there. The shortest axes of
+  // arm_ellipsoid turn behind the hand, and their numbers change sides; its plot has them.
   const bool has_crank = GetParam() == "four_bar" || GetParam() == "slider_crank";
   if (GetParam() != "rr_ellipse" && GetParam() != "rrr_torque") {
-    const double most = GetParam() == "slider_crank" ? 0.25 : has_crank ? 0.15 : GetParam() == "rr_forces" ? 0.12 : 0.05;
+    const double most = GetParam() == "slider_crank" ? 0.25 : has_crank ? 0.15 : GetParam() == "rr_forces" ? 0.12 : GetParam() == "arm_ellipsoid" ? 0.2 : 0.05;
     EXPECT_LE(counts.left_out, most * counts.words);
   }
 }
