@@ -218,7 +218,7 @@ TEST(Readme, PicturesAreThereAndTheFirstIsTheSheetOfAllScenes) {
 TEST(Readme, SheetShowsEveryScene) {
   const std::string words = read_png_text("assets/gallery/sheet.png")["description"];
   const std::string remedy =
-      "make it anew: chainreel sheet assets/scenes/*.yaml --width 1600 --height 1120 -o assets/gallery/sheet.png "
+      "make it anew: chainreel sheet assets/scenes/*.yaml --width 1600 --height 1120 --text-scale 0.8 -o assets/gallery/sheet.png "
       "--force";
   std::ptrdiff_t scenes = 0;
   for (const auto& entry : fs::directory_iterator("assets/scenes")) {

@@ -113,6 +113,9 @@ SheetSize size_on_paper(const SheetOptions& options, double height_mm) {
 double tallest_sheet(const SheetOptions& options) {
   return std::min(std::max(std::round(kSheetOfPaper * options.paper.width_mm), kTallestColumn), tallest_page(options.paper));
 }
+// Below them nobody reads a word, whatever scale is asked for.
+constexpr double kLeastPixels = 9;
+
 SheetSize size_of(const SheetOptions& options) {
   check_paper(options.paper, options.width > 0 || options.height > 0);
   if (options.paper.is_given()) return size_on_paper(options, tallest_sheet(options));
@@ -120,6 +123,7 @@ SheetSize size_of(const SheetOptions& options) {
   size.text_scale = text_scale_of(options.common.flags);
   if (options.width > 0) size.width = options.width;
   if (options.height > 0) size.height = options.height;
+  if (size.text_scale < 1) size.least_text = std::min(size.least_text, kLeastPixels / size.height);
   return size;
 }
 

@@ -16,6 +16,7 @@ constexpr double kTitlePitch = 1.28;       // of the em
 constexpr double kTitleAir = 0.45;        // of the em, between a picture and its title
 constexpr double kAscent = 0.80;          // of the em
 constexpr double kSmallestPicture = 0.045;   // height of a picture that shows anything
+constexpr double kWidestTitle = 1.5;      // of a picture's width
 constexpr double kWideCell = 0.75;        // from this width on, titles have one line and their full size
 constexpr double kThinnestLine = 0.0011;  // 1.2 px of 1080
 constexpr double kLargestWords = 2;  // text_scale; beyond it words would hide what they name
@@ -166,18 +167,18 @@ ContactGrid contact_grid(int count, const ContactSheetLook& look) {
   grid.title_lines = cut.title_lines;
   grid.smallest_text = look.words_of(kSmallestText);
 
-  // The whole lies in the middle of the page; what is free between columns grows where the height decides, no
-  // further than three gaps.
-  const double free = inside.width() - grid.columns * cut.width;
-  const double gap = grid.columns > 1 ? std::min(free / (grid.columns - 1), 3 * kBetweenColumns) : 0;
-  const double left = (look.aspect - grid.columns * cut.width - (grid.columns - 1) * gap) / 2;
+  // The whole lies in the middle of the page. Where the height decides on the pictures, titles are wider than they, by no more than a half.
+  const double column = (inside.width() - (grid.columns - 1) * kBetweenColumns) / grid.columns;
+  const double wide = grid.columns > 1 ? std::min(column, kWidestTitle * cut.width) : cut.width;
+  const double all = grid.columns * (wide + kBetweenColumns) - kBetweenColumns;
+  const double left = std::min((look.aspect - all + wide - cut.width) / 2, look.aspect - size::kMargin - all);
   const double line = cut.height + cut.caption + kBetweenColumns;
   const double top = inside.y1 - (inside.height() - grid.lines * line + kBetweenColumns) / 2;
   for (int i = 0; i < count; ++i) {
-    const double x = left + (i % grid.columns) * (cut.width + gap);
+    const double x = left + (i % grid.columns) * (wide + kBetweenColumns);
     const double y = top - (i / grid.columns) * line;
     grid.pictures.push_back({x, y - cut.height, x + cut.width, y});
-    grid.titles.push_back({x, y - cut.height - cut.caption, x + cut.width, y - cut.height});
+    grid.titles.push_back({x, y - cut.height - cut.caption, x + wide, y - cut.height});
   }
   return grid;
 }

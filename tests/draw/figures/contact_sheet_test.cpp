@@ -183,6 +183,20 @@ TEST(ContactGrid, TakesTheColumnsThatMakePicturesLargest) {
   EXPECT_EQ(contact_grid(3, look(1, 6)).columns, 3);
 }
 
+// Where the height decides on the pictures, words have the width that is left.
+TEST(ContactGrid, HasTitlesAsWideAsItsColumns) {
+  ContactSheetLook four_lines = look(1, 5);
+  four_lines.title_lines = 4;
+  const ContactGrid grid = contact_grid(20, four_lines);
+  EXPECT_GT(grid.titles[0].width(), 1.2 * grid.pictures[0].width());
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_GE(grid.titles[i].x0, size::kMargin - kSheetRoundOff);
+    EXPECT_LE(grid.titles[i].x1, kAspect - size::kMargin + kSheetRoundOff);
+    if (i % 5 > 0) EXPECT_GT(grid.titles[i].x0, grid.titles[i - 1].x1);
+  }
+  EXPECT_EQ(contact_grid(2, look(1, 2)).titles[0].width(), contact_grid(2, look(1, 2)).pictures[0].width()) << "negative control: the width decides";
+}
+
 TEST(ContactGrid, SaysWhatDoesNotFit) {
   EXPECT_THROW(contact_grid(kMostCells + 1, look()), Error);
   EXPECT_THROW(contact_grid(40, look(1, 40)), Error);
