@@ -12,10 +12,15 @@
 namespace chainreel {
 namespace {
 
-// What stands still is as a group's first frame has it, so that this one is made finely and what moves by less. These are
-// quantisers, fixed ones: x264's own measure of quality (crf) has to look at each frame of half the size before, a seventh of
+// What stands still is as a group's first frame has it, so that this one is made finely and what moves by less. Four times a second
+// another frame is as fine: what has come to rest since then, or uncovered what was behind it, leaves nothing behind, as blocks
+// that stand still are passed over only where they are as fine. Without it specks and broken lines lay on dark pages until the next
+// group. Two dark and light films at 1280x720: 44.6 and 47.3 dB of PSNR, 43.9 and 46.7 with frames measured by x264 (crf 27, and 15
+// finer at first), which took 1.4 and 1.6 times the work, for files of 16 and 24 % less.
+// These are fixed quantisers: x264's own measure of quality (crf) has to look at each frame of half the size before, a seventh of
 // its work, and at what lasts by frames ahead (mbtree), which cost 2 dB of PSNR for files of the same size.
-constexpr double kCoarserWhereMoved = 13, kFinerAtFirst = 2;  // than crf
+constexpr double kCoarserWhereMoved = 14, kFinerAtFirst = 2;  // than crf
+constexpr double kFinePerSecond = 4;
 constexpr double kWorst = 51;
 
 struct Quantisers {
@@ -25,7 +30,8 @@ struct Quantisers {
 // From 0, without loss, to 51.
 Quantisers quantisers_of(double crf) {
   if (crf == 0) return {0, 0};
-  return {int(std::clamp(crf - kFinerAtFirst, 1.0, kWorst)), int(std::clamp(crf + kCoarserWhereMoved, 1.0, kWorst))};
+  const auto off = [crf](double by) { return int(std::clamp(crf + by, 1.0, kWorst)); };
+  return {off(-kFinerAtFirst), off(kCoarserWhereMoved)};
 }
 
 // Beside the preset veryfast as it is: one thread and the same bytes whichever instruction set x264 finds; groups of fixed
@@ -83,8 +89,13 @@ void keep_line(void* lines, int level, const char* format, va_list values) {
 struct X264Encoder::State {
   std::string said;  // lines of errors
   x264_t* encoder = nullptr;
+  int fine;        // quantiser of frames that are as fine as the first
+  int until_fine;  // frames from one of them to the next
+  int frames = 0;
 
-  explicit State(const VideoSettings& settings) {
+  explicit State(const VideoSettings& settings)
+      : fine(quantisers_of(crf_of(settings)).first),
+        until_fine(std::max(1, int(std::lround(settings.fps.value() / kFinePerSecond)))) {
     x264_param_t parameters;
     x264().x264_param_default_preset(&parameters, "veryfast", nullptr);
     set_up(parameters, settings);
@@ -128,6 +139,7 @@ void X264Encoder::encode(const AVFrame& frame, StillBlocks::Flags& still, const 
   x264_picture_t picture, coded;
   x264().x264_picture_init(&picture);
   picture.i_pts = frame.pts;
+  if (const int k = state_->frames++; state_->fine > 0 && k > 0 && k % state_->until_fine == 0) picture.i_qpplus1 = state_->fine + 1;
   picture.img.i_csp = X264_CSP_I420;
   picture.img.i_plane = 3;
   for (int i = 0; i < 3; ++i) {

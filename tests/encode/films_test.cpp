@@ -359,6 +359,29 @@ TEST(Films, WithoutLossKeepBlocksThatStandAndThoseThatDoNot) {
   EXPECT_FALSE(pictures_agree(film.last, first, {.max = 2, .mean = 1}, "")) << "negative control";
 }
 
+// Where something passed over a faint grid the grid is as it was, a quarter of a second later.
+TEST(Films, LeaveNothingBehindWhatMoved) {
+  const TemporaryFolder folder;
+  FilmOfFrames writer(folder.file("a.mp4"), {.width = kFilmWidth, .height = kFilmHeight, .fps = {60, 1}});
+  Image grid = flat_picture(kFilmWidth, kFilmHeight, pixel_of(0x14171C));
+  for (int y = 0; y < kFilmHeight; ++y)
+    for (int x = 0; x < kFilmWidth; ++x)
+      if ((x + 2 * y) % 24 == 0) set_pixel(grid, x, y, pixel_of(0x2C3038));
+  constexpr int kPasses = 30, kRests = 16;
+  for (int k = 0; k < kPasses + kRests; ++k) {
+    Image frame = grid;
+    for (int y = 0; y < kFilmHeight && k < kPasses; ++y)
+      for (int x = 0; x < kFilmWidth; ++x)
+        if (std::hypot(x - 6.0 * k, y - 54.0) < 20) set_pixel(frame, x, y, pixel_of(0x9AF5C8));
+    writer.write(frame);
+  }
+  writer.finish();
+  const VideoFacts film = probe_video(folder.file("a.mp4"));
+  const PictureTolerance nearly{.max = 12, .mean = 1.2};  // chroma of half the resolution and the quantiser of first frames
+  EXPECT_TRUE(pictures_agree(film.last, grid, nearly, "behind"));
+  EXPECT_FALSE(pictures_agree(film.middle, grid, nearly, "")) << "negative control: it is there";
+}
+
 // Negative controls of the probe.
 
 TEST(VideoProbe, AnotherLengthRateOrSizeIsSeen) {
