@@ -169,7 +169,8 @@ PlotCurves energies(const Simulation& simulation, const Trajectory& trajectory, 
 
 // Where a curve changes its sign while it grows on both sides it has a pole, whose samples are as high as chance has it: it is cut
 // there, down to some times its usual height, so that the rest of it can be read.
-void cut_poles(std::vector<double>& y) {
+void cut_poles(PlotCurve& curve) {
+  std::vector<double>& y = curve.y;
   constexpr double kUsual = 6;          // times the median magnitude
   constexpr std::ptrdiff_t kNear = 4;   // samples
   constexpr double kAlone = 1e4;        // times what is beside it, and the median
@@ -202,8 +203,11 @@ void cut_poles(std::vector<double>& y) {
       for (std::ptrdiff_t k = way < 0 ? pole : pole + 1; k == pole || k == pole + 1 || size_at(k) > least; k += way) y[std::size_t(k)] = NAN;
   }
   // A sample that fell on a pole stands far above all others, also where the sign stays or the rest of the curve hides that it grows.
-  for (std::ptrdiff_t k = 0; k < count; ++k)
-    if (size_at(k) > kAlone * std::max({*middle, size_at(k - 1), size_at(k + 1)})) y[std::size_t(k)] = NAN;
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    if (!(size_at(k) > kAlone * std::max({*middle, size_at(k - 1), size_at(k + 1)}))) continue;
+    y[std::size_t(k)] = NAN;
+    curve.alone = std::max(curve.alone, size_at(k));
+  }
 }
 
 // Expressions at samples of a run.
@@ -245,7 +249,7 @@ PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simula
   SampledExpressions expressions(plots, simulation, trajectory);
   PlotCurve curve;
   for (int k = 0; k < samples; ++k) curve.y.push_back(expressions.at(value, k));
-  cut_poles(curve.y);
+  cut_poles(curve);
   PlotCurves plot;
   plot.curves.push_back(std::move(curve));
   return plot;

@@ -73,6 +73,7 @@ struct PlotCurve {
   std::string name;       // "q1", "kinetic"; of an expression ""
   std::vector<double> y;  // a number a sample; an effective mass may be infinite
   bool is_bound = false;  // what the others are held against
+  double alone = 0;       // the largest size of samples that are left out as each stands far above all others: on a pole, or a needle
 };
 struct PlotCurves {
   PlotQuantity quantity = PlotQuantity::expression;

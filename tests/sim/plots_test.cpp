@@ -141,6 +141,18 @@ TEST(Plots, AreCutAtPoles) {
   }
 }
 
+// A needle of one sample looks like a pole, and is told by its height where it is left out.
+TEST(Plots, TellTheHeightOfASampleThatIsLeftOut) {
+  Simulation run = run_of("pp", {"0", "0"}, 2, "rk4", 0.01);
+  run.plots = make_plots(run.chain, {{"100 * exp(-((t - 1) / 0.002)^2)", "", {}}, {"sin(t)", "", {}}}, {}, {}, std::nullopt, 0);
+  std::vector<double> times;
+  for (int k = 0; k <= 120; ++k) times.push_back(k / 60.0);
+  const auto plots = plot_curves(run, simulate(run, times), int(times.size()));
+  EXPECT_NEAR(plots[0].curves[0].alone, 100, 1e-6);
+  EXPECT_EQ(std::count_if(plots[0].curves[0].y.begin(), plots[0].curves[0].y.end(), [](double y) { return std::isnan(y); }), 1);
+  EXPECT_EQ(plots[1].curves[0].alone, 0) << "negative control";
+}
+
 TEST(Plots, EnergyErrorIsTheAudits) {
   const auto plots = curves_of({{"energy_error", "", {}}, {"energy", "", {}}});
   // At a tolerance of 1e-10 over a second; the energy itself changes by the torques' work.

@@ -133,15 +133,19 @@ std::vector<Point>::const_iterator leaves_at(const StripCurve& curve, const Axis
   return std::ranges::find_if(curve.points, [&](const Point& p) { return p.y < y.low || p.y > y.high; });
 }
 
+// " m" of "q [m]".
+std::string unit_in(const std::string& title) {
+  const std::size_t unit = title.find_last_of('[');
+  return unit != std::string::npos && title.ends_with("]") ? " " + title.substr(unit + 1, title.size() - unit - 2) : "";
+}
+
 // The largest number that it has shows what the axis does not: "to 7\u00D710\u2078 m", with the unit of the title.
 void say_where_it_goes(StripCurve& curve, const Axis& y, const std::string& title) {
   if (leaves_at(curve, y) == curve.points.end()) return;
   double most = 0;
   for (const Point& p : curve.points)
     if (std::isfinite(p.y)) most = std::max(most, std::abs(p.y));
-  const std::size_t unit = title.find_last_of('[');
-  const std::string in_units = unit != std::string::npos && title.ends_with("]") ? " " + title.substr(unit + 1, title.size() - unit - 2) : "";
-  curve.label += (curve.label.empty() ? "to " : ", to ") + format_power(most) + in_units;
+  curve.label += (curve.label.empty() ? "to " : ", to ") + format_power(most) + unit_in(title);
 }
 
 // Where a curve leaves the frame for good it goes on.
@@ -302,6 +306,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
       const std::vector<double>& t = run.times[i];
       for (std::size_t k = 0; k < std::min(y.size(), t.size()); ++k) curve.points.push_back({t[k], y[k]});
       if (data.has_poles && !curve.label.empty() && std::ranges::all_of(y, [](double one) { return std::isinf(one); })) curve.label += " = \u221E";
+      if (const double alone = shown.curves[c].alone; alone > 0) curve.label += (curve.label.empty() ? "once " : ", once ") + format_power(alone) + unit_in(data.title);
       if (run.step > 0) std::ranges::copy_if(curve.points, std::back_inserter(curve.marks), [&](const Point& p) { return ends_step(p.x, run); });
       data.curves.push_back(std::move(curve));
     }

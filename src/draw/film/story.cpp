@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/format.hpp"
 #include "draw/layers/devices.hpp"
 #include "scene/text/write_scene.hpp"
 
@@ -49,7 +50,8 @@ Story of_ellipse(const Stage& stage) {
   return of_all(stage, ellipse.reading == EllipseReading::energy ? PlotQuantity::energy_speed : PlotQuantity::effective_mass);
 }
 
-// Of a foot where the ground presses, and between which ends it can; what lies farther beyond them than half of the foot is left out.
+// Of a foot where the ground presses, and between which ends it can. What lies farther beyond them than half of the foot is told by its
+// number, unless it is most of what there is.
 std::vector<PlotCurves> pressure_on_foot(const StagedRun& motion) {
   constexpr double kBeyondFoot = 0.5;  // lengths of the foot
   const Foot& foot = *motion.simulation()->events->foot;
@@ -57,10 +59,19 @@ std::vector<PlotCurves> pressure_on_foot(const StagedRun& motion) {
   std::vector<PlotCurves> found = plot_curves(*plots, *motion.simulation(), motion.curve_run(), motion.curve_samples());
   PlotCurves told{PlotQuantity::expression, "centre of pressure [m]", false, {}, found.front().formula};
   for (PlotCurves& one : found) told.curves.push_back({one.formula, std::move(one.curves.front().y), one.formula != "cop"});
+  PlotCurve& pressure = told.curves.front();
+  pressure.name = "pressure";
   const double most = kBeyondFoot * (foot.toe - foot.heel);
-  for (double& place : told.curves.front().y)
-    if (place < foot.heel - most || place > foot.toe + most) place = NAN;
-  told.curves.front().name = "pressure";
+  const auto is_beyond = [&](double place) { return place < foot.heel - most || place > foot.toe + most; };
+  const auto is_there = [](double place) { return std::isfinite(place); };
+  if (2 * std::ranges::count_if(pressure.y, is_beyond) > std::ranges::count_if(pressure.y, is_there)) return {told};
+  double farthest = 0;
+  for (double& place : pressure.y) {
+    if (!is_beyond(place)) continue;
+    if (std::abs(place) > std::abs(farthest)) farthest = place;
+    place = NAN;
+  }
+  if (farthest != 0) pressure.name += ", to " + format_significant(farthest, 2) + " m";
   return {told};
 }
 

@@ -21,7 +21,8 @@ namespace {
 
 constexpr double kWeightArrow = 0.15;  // units of H: as long is the force that bears the weight
 constexpr double kBesideOthers = 0.55;  // ... of that, where panels or plots share the page: the robot is what one looks at
-constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones lead out of the scene
+constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones are no longer and have a break
+constexpr double kBrokenOver = 0.1;    // weights beyond that, over which the break opens
 constexpr double kDepths[] = {0.05, 0.08, 0.12};  // units of H, below the ground: of words that the foot is held
 constexpr double kBesideArrow = 0.03;  // units of H
 constexpr double kShortestTie = 0.01;  // ... of a line from there to the words
@@ -143,6 +144,7 @@ class FootLayer : public Layer {
     const ChainLook& look = panel.look();
     ArrowStyle style{look.theme->constraint, look.marks, false, 0, look.theme->lines, look.theme->background};
     const Point pressure = panel.camera().project(run.on_ground(answer.hold.place)), force = on_page(answer.hold.force, panel.camera());
+    style.broken = broken(answer.hold.force.norm());
     draw_arrow(picture, pressure - force, force, style, panel.clip());
     const auto mark = [&](Point at, Color fill) {
       const double radius = look.marks * kPressure;
@@ -151,6 +153,7 @@ class FootLayer : public Layer {
     if (answer.hold.force.dot(run.ground.up) > 0) mark(pressure, look.theme->constraint);
     if (answer.beyond) mark(panel.camera().project(run.on_ground(*answer.beyond)), look.theme->background);
     style.dashed = true;
+    style.broken = broken(answer.hold.pull);
     draw_arrow(picture, panel.camera().project(run.on_ground(answer.hold.pull_place)), pull_on_page(run, answer.hold, panel.camera()), style, panel.clip());
   }
 
@@ -168,8 +171,10 @@ class FootLayer : public Layer {
     draw_center_of_mass(picture, panel.camera().project(center), look, panel.clip());
   }
 
+  static double broken(double weights) { return std::clamp((weights - kMostRoom) / kBrokenOver, 0.0, 1.0); }
   Point on_page(const Eigen::Vector3d& weights, const Camera& camera) const {
-    return (arrow_ / camera.scale) * camera.project_vector(weights, camera.focus);
+    const double size = weights.norm(), drawn = size > kMostRoom ? kMostRoom / size : 1;
+    return (arrow_ * drawn / camera.scale) * camera.project_vector(weights, camera.focus);
   }
   Point pull_on_page(const FootRun& run, const FootHold& hold, const Camera& camera) const { return on_page(-hold.pull * run.ground.up, camera); }
 
