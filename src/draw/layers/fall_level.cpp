@@ -1,5 +1,5 @@
 // What counts as a fall, where that is a height: of an event of kind `fall` which says that a frame is lower than so much there is a dashed
-// line at that height, as far as the frame goes, with the event's name, and a ring at the frame, so that one sees the two meet.
+// line at that height, as far as the frame goes, with the event's name until that happens, and a ring at the frame, so that one sees the two meet.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -96,6 +96,7 @@ class FallLevelLayer : public Layer {
     const double radius = panel.look().marks * kLevelRing;
     picture.add(Ellipse{panel.camera().project(place(panel.chain(), shot.ws, level)), {radius, 0}, {0, radius}, {theme_->background, theme_->ink, panel.look().marks * kLevelRim}},
                 panel.clip());
+    if (is_noted(panel, level, shot.k)) return;
     std::vector<Rect> places;
     for (const TextLine* shape : {&words, &wrapped}) {
       places.push_back(place_beyond(*shape, line.b, kLevelGap, {1, 0}));
@@ -117,6 +118,15 @@ class FallLevelLayer : public Layer {
     std::pair<double, double> way;  // m along the ground, between which the frame is
     TextLine words, wrapped;  // where there is no room for one line
   };
+
+  // From the instant on the note below the scene says the name.
+  static bool is_noted(const Panel& panel, const FallLevel& level, int k) {
+    const Trajectory& run = panel.motion().trajectory();
+    const auto place = std::size_t(level.event - panel.motion().simulation()->events->list.data());
+    for (std::size_t hit = 0; hit < run.events.t.size(); ++hit)
+      if (std::size_t(run.events.event[hit]) == place && (k >= run.size() || run.events.t[hit] <= run.t[std::size_t(k)])) return true;
+    return false;
+  }
 
   static Eigen::Vector3d place(const Chain& chain, const Workspace& ws, const FallLevel& level) {
     return frame_pose(chain, ws, level.frame).translation();

@@ -1,7 +1,7 @@
 // A foot on the ground and what the ground answers: an arrow that ends at the centre of pressure, which is marked, as long as
 // the force. It stands below the ground, along the line on which the force acts, where no leg hides it. The force that presses never
 // leaves the foot: what would have to press beside it is a ring there, and the foot is held by a pull at its other end, which is a dashed arrow with words that
-// no ground gives it. A plumb line from the centre of mass shows where that stands beside the foot.
+// a real foot would tip. A plumb line from the centre of mass shows where that stands beside the foot.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -86,9 +86,9 @@ class FootLayer : public Layer {
   explicit FootLayer(const Stage& stage)
       : theme_(&stage.theme),
         page_(&stage.page),
-        held_(words(stage, "foot held by a pull no ground gives")),
-        short_(words(stage, "no ground pulls so")),
-        turned_(words(stage, "foot held: a real one turned")),
+        held_(words(stage, "a real foot would tip here")),
+        short_(words(stage, "a real foot tips")),
+        turned_(words(stage, "a real foot has tipped")),
         names_center_(stage.shows("com") && stage.shows("legend")),
         arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
     for (const StagedRun& motion : stage.motions)
@@ -106,6 +106,7 @@ class FootLayer : public Layer {
     const double force = round_length(kLegend / arrow_ * *weight_);
     text.scales.push_back({ScaleEntry::Mark::arrow, arrow_ * force / *weight_, theme_->constraint,
                            "ground reaction " + format_shortest(force) + " N", kAfterScales});
+    text.scales.push_back({ScaleEntry::Mark::disc, 2 * kPressure, theme_->constraint, "centre of pressure", kAfterScales + 1});
   }
 
   void measure(const Sight& sight, FitBox& box) const override {
@@ -168,7 +169,6 @@ class FootLayer : public Layer {
     const Eigen::Vector3d below = center - (center.dot(run.ground.up) - run.foot.height) * run.ground.up;
     const ChainLook& look = panel.look();
     draw_dashed_line(picture, {panel.camera().project(center), panel.camera().project(below)}, look.marks * kPlumbLine, look.theme->ink, panel.clip());
-    draw_center_of_mass(picture, panel.camera().project(center), look, panel.clip());
   }
 
   static double broken(double weights) { return std::clamp((weights - kMostRoom) / kBrokenOver, 0.0, 1.0); }
@@ -212,10 +212,23 @@ class FootLayer : public Layer {
   std::optional<double> weight_;  // N, of the first run
 };
 
+// Where the plumb line begins: over arcs and arrows, which the line lies below.
+class CenterOverFoot : public Layer {
+ public:
+  void draw(Picture& picture, const Shot& shot) const override {
+    const Panel& panel = shot.panel;
+    if (panel.motion().has_foot()) draw_center_of_mass(picture, panel.camera().project(center_of_mass(panel.chain(), shot.ws)), panel.look(), panel.clip());
+  }
+};
+
 }  // namespace
 
 std::unique_ptr<const Layer> make_layer_foot(const Stage& stage) {
   return std::make_unique<FootLayer>(stage);
+}
+
+std::unique_ptr<const Layer> make_layer_center_over_foot(const Stage&) {
+  return std::make_unique<CenterOverFoot>();
 }
 
 }  // namespace chainreel

@@ -63,6 +63,9 @@ void draw_entry(Picture& picture, const EntryLine& line, Point left, const Theme
       draw_center_of_mass(picture, middle, look, -1);
       break;
     }
+    case ScaleEntry::Mark::disc:
+      picture.add(Ellipse{middle, {line.mark_width / 2, 0}, {0, line.mark_width / 2}, {line.entry.color, {}, 0}}, -1);
+      break;
     default:
       draw_arrow(picture, left, {line.entry.measure, 0},
                  {line.entry.color, 1, line.entry.mark == ScaleEntry::Mark::dashed_arrow, 0, theme.lines}, -1);

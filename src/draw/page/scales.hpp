@@ -13,9 +13,9 @@ namespace chainreel {
 struct Sheet;
 
 struct ScaleEntry {
-  enum class Mark { arrow, dashed_arrow, turn, damper, center_of_mass };
+  enum class Mark { arrow, dashed_arrow, turn, damper, center_of_mass, disc };
   Mark mark = Mark::arrow;
-  double measure = 0;  // units of H; of a turn rad
+  double measure = 0;  // units of H, of a disc its diameter; of a turn rad
   Color color;
   std::string text;  // "weight 10 N"
   int order = 0;     // entries stand by it, from left to right

@@ -169,8 +169,32 @@ TEST_F(FallingHuman, APlumbLineFallsFromTheCentreOfMass) {
 
 // Where a real foot would tip the picture says that this one is held, and nowhere else.
 TEST_F(FallingHuman, IsSaidToBeHeldWhereARealFootWouldTip) {
-  EXPECT_THAT(test::words_of(film(&simulation_).frame(run_.size() - 1)), HasSubstr("foot held"));
-  EXPECT_THAT(test::words_of(film(&simulation_).frame(0)), Not(HasSubstr("held")));
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(run_.size() - 1)), HasSubstr("a real foot would tip here"));
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(0)), Not(HasSubstr("real foot")));
+}
+
+// The mark of the centre of mass lies over the arcs of torques, which the last pose has about it; the page names the mark where the ground presses.
+TEST_F(FallingHuman, HasItsCentreOfMassOverArcsAndNamesWhereTheGroundPresses) {
+  const Film film = this->film(&simulation_);
+  const Theme& theme = theme_named("light");
+  const Picture frame = film.frame(run_.size() - 1);
+  std::optional<std::size_t> arcs, center;
+  for (std::size_t i = 0; i < frame.items.size(); ++i) {
+    const auto* head = std::get_if<Polygon>(&frame.items[i].shape);
+    if (head && head->paint.fill == theme.torque) arcs = i;
+    const auto* rim = std::get_if<Ellipse>(&frame.items[i].shape);
+    if (rim && rim->paint.stroke == theme.ink && std::abs(norm(rim->u) - film.panel(0).look().marks * size::kCenterOfMass / 2) < 1e-9) center = i;
+  }
+  ASSERT_TRUE(arcs && center);
+  EXPECT_GT(*center, *arcs);
+  EXPECT_THAT(test::words_of(film.static_layer()), HasSubstr("ground reaction 200 Ncentre of pressure"));
+}
+
+// At the end the note has the name of the height, which its line has until then.
+TEST_F(FallingHuman, NamesTheHeightOnce) {
+  const std::string words = test::words_of(film(&simulation_).frame(run_.size() - 1)), name = "hip where the knee was";
+  ASSERT_THAT(words, HasSubstr(name));
+  EXPECT_EQ(words.find(name), words.rfind(name)) << words;
 }
 
 TEST_F(FallingHuman, TheGroundPushesFromBelowWhereThePressureIsMarked) {
