@@ -14,12 +14,13 @@ namespace {
 // A share of the page's width; where it is not enough for all panels, they share the labels of the last.
 constexpr double kMostForLabels = 0.30;
 constexpr double kQuietMarker = 0.7;
+constexpr double kQuietLine = 0.0018, kQuietOpacity = 0.6;  // units of H: so thin and pale are curves without a colour
 constexpr double kNarrowestPanel = 20;  // ems of a tick's text, on paper
 constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
 // What lies to the left of the least error that says something.
-constexpr const char* kGuidesWords = "thin lines: 1, 10, 100 times the cheapest run";
+constexpr const char* kGuidesWords = "dotted: 1, 10, 100 times the cheapest run";
 constexpr const char* kRoundingWords = "under the growth of one rounding";
 constexpr const char* kReferenceWords = "under what the reference is known to";
 
@@ -35,8 +36,9 @@ CurveStyle style_of(const WorkPrecision& data, std::size_t curve, const ChartLoo
   const int index = data.curves[curve].look;
   CurveStyle style = curve_style(index < 0 ? int(curve) : index, *look.theme, look.text_scale);
   if (data.curves[curve].is_lit) return style;
-  style.color = look.theme->base;
-  style.width = size::kPlotLineSecondary;
+  style.color = look.theme->base.faded(kQuietOpacity);
+  style.width = kQuietLine;
+  style.dash = Dash::solid;
   style.marker_size *= kQuietMarker;
   if (data.curves[curve].points.size() > 1) style.marker = Marker::none;
   return style;
@@ -229,11 +231,8 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   if (data.reference_uncertainty > 0 && !data.is_least_of_reference()) add(of_reference());
   add(kGuidesWords);
   if (triangles) add("triangles: slope of an order");
-  std::string others;
-  int number = 0;
-  for (const ChartCurve& curve : data.curves)
-    if (!curve.is_lit) others += (others.empty() ? "grey: " : ", ") + std::to_string(++number) + " " + title_of(curve);
-  add(others);
+  const auto others = std::ranges::count_if(data.curves, [](const ChartCurve& curve) { return !curve.is_lit; });
+  if (others) add(std::to_string(others) + (others == 1 ? " other" : " others") + ", grey: --highlight names them");
   if (any_failed(data)) add("crosses at the right edge: runs that failed or are lost");
   add(data.machine);
   return text;

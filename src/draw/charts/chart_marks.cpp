@@ -16,7 +16,7 @@ namespace chainreel {
 namespace {
 
 constexpr int kGuideSamples = 160;
-constexpr double kGuideOpacity = 0.75, kGuideLine = 0.0014;
+constexpr double kGuideLine = 0.0018;
 constexpr double kTriangleRise = 0.042, kTriangleOffset = 0.014;
 constexpr double kLeastRun = 0.037, kLongestRun = 0.11, kHighestRise = 0.20;  // H at the usual size of text: what is narrower shows no slope
 constexpr double kSlopeAgreement = 0.25;  // of 1/p: more than times scatter, less than to the next order
@@ -95,8 +95,8 @@ std::vector<Point> best_curve(const PlotFrame& frame, const WorkPrecision& data,
 
 void draw_guides(Picture& picture, const PlotFrame& frame, const std::vector<Point>& best,
                  const ChartLook& look) {
-  // Thin and solid: methods are wider, and dashed.
-  const CurveStyle style{look.theme->muted.faded(kGuideOpacity), kGuideLine, Dash::solid, Marker::none};
+  // As the grid and dotted: methods' lines are whole, or wider.
+  const CurveStyle style{look.theme->rule, kGuideLine, Dash::dotted, Marker::none};
   for (const auto& [factor, words] : kGuides) {
     std::vector<Point> curve = best;
     for (Point& p : curve) p.y *= factor;
@@ -199,37 +199,55 @@ bool draw_slopes(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
 
 // --- the choice of `auto` ---
 
-std::optional<Point> chosen_point(const PlotFrame& frame, const WorkPrecision& data, ChartCost cost) {
-  if (!data.choice || data.choice->point < 0) return {};
+// No error at all is as good as the axis shows.
+Point place_of(const ChartPoint& point, const PlotFrame& frame, ChartCost cost) {
+  return {std::max(point.error, frame.x.low), cost_of(point, cost)};
+}
+
+// Of it the run, where the frame can show that.
+const ChartPoint* chosen_point(const PlotFrame& frame, const WorkPrecision& data, ChartCost cost) {
+  if (!data.choice || data.choice->point < 0) return nullptr;
   for (const ChartCurve& curve : data.curves) {
     if (curve.method != data.choice->method || std::size_t(data.choice->point) >= curve.points.size())
       continue;
     const ChartPoint& point = curve.points[std::size_t(data.choice->point)];
-    const Point place = {std::max(point.error, frame.x.low), cost_of(point, cost)};
-    if (!point.failed && frame.can_show(place)) return frame.at(place);
+    if (!point.failed && frame.can_show(place_of(point, frame, cost))) return &point;
   }
-  return {};
+  return nullptr;
+}
+
+// "auto (order 12)" of "taylor, order 12, tolerance 1e-06" where that lies off its method's curve, which is of another order.
+std::string words_of_choice(const ChartPoint& point) {
+  const std::size_t first = point.label.find(", "), last = point.label.rfind(", ");
+  if (!point.is_apart || first == last) return "auto";
+  return "auto (" + point.label.substr(first + 2, last - first - 2) + ")";
 }
 
 void draw_choice(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
                  Obstacles& obstacles, const ChartLook& look) {
-  const std::optional<Point> at = chosen_point(frame, data, cost);
-  if (!at) return;
-  picture.add(Ellipse{*at, {kRing, 0}, {0, kRing}, {{}, look.theme->ink, kRingLine}});
-  obstacles.boxes.push_back({at->x - kRing, at->y - kRing, at->x + kRing, at->y + kRing});
+  const ChartPoint* const chosen = chosen_point(frame, data, cost);
+  if (!chosen) return;
+  const Point at = frame.at(place_of(*chosen, frame, cost));
+  picture.add(Ellipse{at, {kRing, 0}, {0, kRing}, {{}, look.theme->ink, kRingLine}});
+  obstacles.boxes.push_back({at.x - kRing, at.y - kRing, at.x + kRing, at.y + kRing});
   const double em = look.plot_style().text(size::kTick);
   const TextLine word =
-      lay_out_text(*look.fonts, "auto", {Face::label_bold, em, look.theme->ink, Align::center});
+      lay_out_text(*look.fonts, words_of_choice(*chosen), {Face::label_bold, em, look.theme->ink, Align::center});
   const double half = word.advance / 2, gap = kRing + kClearance + 0.004;
-  const std::array<Point, 6> places = {{{0, -gap - 0.8 * em},
+  const std::array<Point, 11> places = {{{0, -gap - 0.8 * em},
                                         {0, gap + 0.1 * em},
                                         {-gap - half, -gap - 0.4 * em},
                                         {gap + half, gap - 0.4 * em},
                                         {gap + half, -gap - 0.4 * em},
-                                        {-gap - half, gap - 0.4 * em}}};
-  Point best = *at + places[0];
+                                        {-gap - half, gap - 0.4 * em},
+                                        {-half / 2, -gap - 0.8 * em},
+                                        {half / 2, -gap - 0.8 * em},
+                                        {0, -gap - 2.2 * em},
+                                        {-half / 2, -gap - 2.2 * em},
+                                        {0, gap + 1.5 * em}}};
+  Point best = at + places[0];
   for (const Point& place : places) {
-    const Point p = *at + place;
+    const Point p = at + place;
     if (!obstacles.is_free({p.x - half, p.y, p.x + half, p.y + 0.75 * em})) continue;
     best = p;
     break;
@@ -259,14 +277,12 @@ bool draw_word_beside(Picture& picture, const std::string& text, Color color, Po
 }
 
 // With which steps or tolerances highlighted curves begin and end; and the names of the others, since
-// grey does not tell them apart, as near to their most exact ends as there is room. Where that is too little for a name,
-// and the foot tells their numbers, these.
+// grey does not tell them apart, as near to their most exact ends as there is room.
 void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, Obstacles& obstacles,
                     const ChartLook& look) {
   for (const bool lit : {true, false})
-    for (std::size_t k = 0, greys = 0; k < data.curves.size(); ++k) {
+    for (std::size_t k = 0; k < data.curves.size(); ++k) {
       const ChartCurve& curve = data.curves[k];
-      if (!curve.is_lit) ++greys;
       const ChartPoint *first = nullptr, *last = nullptr;
       for (const ChartPoint& point : curve.points) {
         if (point.failed || point.is_apart || !(point.error >= frame.x.low) || !frame.can_show({point.error, cost_of(point, cost)})) continue;
@@ -281,10 +297,7 @@ void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecisio
           if (!point.failed && !point.is_apart && point.error >= first->error && frame.can_show({point.error, cost_of(point, cost)})) points.push_back(&point);
         std::ranges::stable_sort(points, {}, &ChartPoint::error);
         const std::string name = without_formulas(curve.title.empty() ? curve.method : curve.title);
-        const auto has_room = [&](const std::string& word) {
-          return std::ranges::any_of(points, [&](const ChartPoint* point) { return draw_word_beside(picture, word, look.theme->muted, place(*point), obstacles, look); });
-        };
-        if (!has_room(name) && !look.is_small) has_room(std::to_string(greys));
+        std::ranges::any_of(points, [&](const ChartPoint* point) { return draw_word_beside(picture, name, look.theme->muted, place(*point), obstacles, look); });
         continue;
       }
       const Color color = curve_style(curve.look < 0 ? int(k) : curve.look, *look.theme).color;

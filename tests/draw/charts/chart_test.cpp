@@ -96,6 +96,17 @@ TEST(Chart, NamesEveryMethodAndWhatItShows) {
   EXPECT_FALSE(says(without, "rounding"));
 }
 
+// A choice of another order lies off its method's curve, and says why.
+TEST(Chart, SaysWhyTheChoiceLiesOffItsCurve) {
+  WorkPrecision data = sample_work_precision();
+  const auto chosen = std::ranges::find(data.curves, data.choice->method, &ChartCurve::method);
+  ChartPoint& point = chosen->points[std::size_t(data.choice->point)];
+  point.label = "taylor, order 20, tolerance 1e-06";
+  EXPECT_FALSE(says(work_precision_chart(data, kBoth, look_of(light_theme())), "auto (order 20)"));
+  point.is_apart = true;
+  EXPECT_TRUE(says(work_precision_chart(data, kBoth, look_of(light_theme())), "auto (order 20)"));
+}
+
 // A method whose marker is a disc, so that its points can be counted.
 WorkPrecision one_curve(int failed) {
   WorkPrecision data;
@@ -172,7 +183,7 @@ TEST(Chart, LightsTheCheapestAndTheChoiceOrWhatIsAskedFor) {
   light_curves(data, kBoth, {});
   EXPECT_TRUE(data.curves[0].is_lit && data.curves[1].is_lit && !data.curves[2].is_lit);
   const Picture picture = work_precision_chart(data, kSeconds, look_of(light_theme()));
-  EXPECT_TRUE(says(picture, "grey"));
+  EXPECT_TRUE(says(picture, "1 other, grey"));
   const auto trails = [&](const Picture& p, Color color) {
     return all_of<Trail>(p, [&](const Trail& trail) { return trail.color == color; }).size() +
            all_of<Capsule>(p, [&](const Capsule& line) { return line.paint.fill == color; }).size();
