@@ -49,7 +49,7 @@ const Theme& dark_theme() {
       .ellipse = color_of(0x8FFEBF),
       .torque = color_of(0xE04F9F),
       .velocity = color_of(0xC4FA58),
-      .force = color_of(0xA6812B),
+      .force = color_of(0xD8AEC0),
       .constraint = color_of(0xAABE7D),
       .curve = {color_of(0x56B4E9), color_of(0xE69F00), color_of(0x009E73)},
       .side_a = color_of(0x56B4E9),

@@ -41,7 +41,7 @@ std::vector<Row> dark_rows() {
           {"link 2", t.link[1], 8.0},   {"link 3", t.link[2], 5.3},
           {"link 4", t.link[3], 5.9},   {"ellipse", t.ellipse, 14.6},
           {"torque", t.torque, 5.0},    {"velocity", t.velocity, 14.7},
-          {"force", t.force, 5.0},      {"constraint", t.constraint, 8.9},
+          {"force", t.force, 9.2},      {"constraint", t.constraint, 8.9},
           {"curve 1", t.curve[0], 7.8}, {"curve 2", t.curve[1], 8.0},
           {"curve 3", t.curve[2], 5.3}, {"A", t.side_a, 7.8},
           {"B", t.side_b, 8.0}};
@@ -103,6 +103,18 @@ TEST(Theme, WhatMayMeetInAPictureIsToldApartByEveryKindOfVision) {
     const Closest closest = closest_pair(rows);
     EXPECT_GE(closest.difference, 12) << closest.names;  // the distance the colours were chosen for
   }
+}
+
+// Weights lie on ghosts, which at most are half of a link's colour; on links themselves arrows have an edge of the background's colour.
+TEST(Theme, WeightsAreSeenOnGhosts) {
+  const auto half = [](Color over, Color below) {
+    const auto mean = [](std::uint8_t a, std::uint8_t b) { return std::uint8_t((a + b) / 2); };
+    return Color{mean(over.r, below.r), mean(over.g, below.g), mean(over.b, below.b), 1};
+  };
+  for (const Theme* theme : {&light_theme(), &dark_theme()})
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_GE(contrast(theme->force, half(theme->link[i], theme->background)), 3) << i;
+  // Negative control: the ochre that weights had in the dark was lost there.
+  EXPECT_LT(contrast(color_of(0xA6812B), half(dark_theme().link[1], dark_theme().background)), 2);
 }
 
 TEST(Theme, RedAndGreenOfAFrameAreConfusedWhichIsWhyAxesBearLetters) {
