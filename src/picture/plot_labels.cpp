@@ -21,7 +21,9 @@ std::vector<std::string> wrapped(const Fonts& fonts, const std::string& words, c
   std::string line;
   for (std::size_t at = 0; at < words.size();) {
     std::size_t end = std::min(words.find_first_of(" -", at), words.size());
-    if (end < words.size() && words[end] == '-') ++end;  // a hyphen ends its line
+    // A hyphen ends its line, but no sign of a number: "1e-10", "-3".
+    while (end + 1 < words.size() && words[end] == '-' && words[end + 1] >= '0' && words[end + 1] <= '9') end = std::min(words.find_first_of(" -", end + 1), words.size());
+    if (end < words.size() && words[end] == '-') ++end;
     const std::string part = words.substr(at, end - at);
     const bool is_spaced = at > 0 && words[at - 1] == ' ';
     const std::string longer = line + (is_spaced && !line.empty() ? " " : "") + part;

@@ -306,6 +306,7 @@ TEST(Labels, ParagraphsBreakAtSpacesAndHyphens) {
               ElementsAre("no", "double-", "precision", "method"));
   EXPECT_THAT(wrapped(fonts(), "no double-precision method", style, 10),
               ElementsAre("no double-precision method"));
+  EXPECT_THAT(wrapped(fonts(), "at 1e-10 or -3 a dop853-like", style, 0), testing::ElementsAre("at", "1e-10", "or", "-3", "a", "dop853-", "like")) << "signs are no hyphens";
   for (const std::string& line : wrapped(fonts(), "a method that is known to all of us", style, 0.15))
     EXPECT_LE(lay_out_text(fonts(), line, style).advance, 0.15) << line;
 }

@@ -275,7 +275,7 @@ ResponseChart chart_of(const FallTable& table, const Scene& scene) {
   if (any(tips)) instants.curves.push_back(tips);
   chart.panels.push_back(instants);
   chart.lacks = lacks_of(table);
-  if (any(tips)) chart.footer = "Behind tipping the foot is held where a real one turns.";
+  if (any(tips)) chart.footer = "After tipping the foot is held where a real one turns.";
   for (const FallEdge& edge : table.edges) {
     const double x = (edge.before + edge.behind) / 2 * degrees;
     chart.edges.push_back({x, format_significant(x, 4)});

@@ -414,14 +414,14 @@ void run_stability(const StabilityOptions& options) {
 void add_stability_command(CommandLine& app) {
   auto options = std::make_shared<StabilityOptions>();
   Command* command = app.add_subcommand(
-      "stability", "a map of where a scene fails over two of its keys, or which method does");
+      "stability", "a map of where a scene fails over two of its keys, or a table of which method does");
   command->add_option("scene", options->scene, "a scene file").required().names_input();
-  command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it");
+  command->add_option("--x", options->x, "KEY=from:to:count, maybe with :log behind it; a picture needs --x and --y: without them there is the table of methods");
   command->add_option("--y", options->y, "the same, upward");
   command->add_option("--methods", options->methods, "rk4,taylor,..: of the table (default all); of maps one each, in files of their names (default the scene's)");
   add_panel_option(*command, options->panel);
   command->add_option("--jobs", options->threads, "threads (default: all cores)").range(1, 256);
-  add_figure_options(*command, options->figure, options->common, "out/NAME_stability.png");
+  add_figure_options(*command, options->figure, options->common, "of maps out/NAME_stability.png, of tables none");
   add_scene_options(*command, options->common);
   add_result_options(*command, options->common);
   command->footer(
