@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "draw/figures/pose_panels.hpp"
 #include "draw/layers/fading.hpp"
 
 namespace chainreel {

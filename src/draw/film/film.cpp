@@ -120,7 +120,7 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) con
   MarkLabels labels(is_still ? std::span<const StandingWord>(of_still) : words_.at(i, shown));
   for (std::size_t l = 0; l < layers_.size(); ++l)
     if (layers_[l]->is_of(panel.motion()))
-      layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels});
+      layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels, is_still});
   if (!is_gone || !stage_->has_cells()) return;
   draw_veil(picture, i);
   draw_way_out(picture, i, k);

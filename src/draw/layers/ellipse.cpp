@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/format.hpp"
+#include "draw/layers/cut_numbers.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/layers/fading.hpp"
 #include "draw/page/scales.hpp"
@@ -243,6 +244,15 @@ std::optional<double> bounded_semi_axis(const std::vector<MassAxis>& axes, Ellip
 bool is_ordinary(const std::vector<MassAxis>& axes) {
   return !axes.empty() && axes.front().mass && axes.back().mass &&
          *axes.front().mass <= kOrdinaryRatio * *axes.back().mass;
+}
+
+std::vector<CutLength> cut_lengths(const std::vector<MassAxis>& axes, Point center, const Camera& camera, const EllipseStyle& style) {
+  std::vector<CutLength> lengths;
+  for (const PageAxis& axis : page_axes(axes, camera, style)) {
+    const bool is_seen_cut = contains(style.scene, center) && (!axis.length || is_cut(center, axis.v, style));
+    lengths.push_back(is_seen_cut ? CutLength(axis.length.value_or(HUGE_VAL)) : std::nullopt);
+  }
+  return lengths;
 }
 
 std::string EllipseScale::label() const {

@@ -88,6 +88,13 @@ using Hides = std::function<bool(const Eigen::Vector3d&)>;
 // Whether some of a box lies in front of a curve.
 using Covers = std::function<bool(const Rect&)>;
 
+// What a film says at a frame of an axis that its scene cuts.
+struct CutNumber {
+  double length = 0;      // kg or m/s, by which the axis is known
+  std::string bound = {};  // "> 8", said instead of it; "": the number itself
+  double opacity = 1;
+};
+
 // What belongs to the picture in which ellipses are drawn.
 struct EllipseStyle {
   const Theme* theme = nullptr;
@@ -99,6 +106,7 @@ struct EllipseStyle {
   double fade = size::kEllipseFade;  // over this last stretch
   bool signs = true;                 // infinity signs and lengths at ends that are not seen
   double lines = 1;                  // times the widths of the style guide
+  std::vector<CutNumber> cut_numbers{};  // of the axes that a film has cut; those that are not named have their numbers
   MarkLabels* labels = nullptr;      // takes the lengths, to be drawn with other words; absent: they are drawn
   int* unnamed = nullptr;  // of figures, which have room around: counts semi-axes that have no place for their number
   EllipsePart part = EllipsePart::whole;

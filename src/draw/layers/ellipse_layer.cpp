@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "draw/layers/cut_numbers.hpp"
 #include "draw/layers/ellipse.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/layers/layer.hpp"
@@ -66,11 +67,27 @@ class MassAlong {
   void draw(Picture& picture, const Panel& panel, int k, EllipseStyle style) const {
     const Workspace& ws = panel.motion().pose_at(k);
     const Eigen::Vector3d tip = tip_position(panel.chain(), ws);
-    if (panel.motion().shapes() && body() == EllipseBody::solid)
-      style.hides = robot_hides(*panel.motion().shapes(), ws, panel.camera(), tip);
+    if (has_body_shapes(panel)) style.hides = robot_hides(*panel.motion().shapes(), ws, panel.camera(), tip);
     style.outward = last_link(panel.motion().skeleton(), ws, panel.camera());
     draw_mass_ellipse(picture, axes_at(panel.motion(), k), panel.tip().place(k), panel.camera().seen_at(tip),
                       style, panel.clip());
+  }
+
+  // What the film says at each frame of each of the axes.
+  std::vector<std::vector<CutNumber>> cut_numbers(const Panel& panel, EllipseStyle style) const {
+    std::vector<std::vector<CutLength>> lengths;
+    const auto frames = std::size_t(panel.last() + 1);
+    for (std::size_t k = 0; k < frames && !has_body_shapes(panel); ++k) {
+      const Workspace& ws = panel.motion().pose_at(int(k));
+      const Camera seen = panel.camera().seen_at(tip_position(panel.chain(), ws));
+      style.outward = last_link(panel.motion().skeleton(), ws, panel.camera());
+      const std::vector<CutLength> now = cut_lengths(axes_at(panel.motion(), int(k)), panel.tip().place(int(k)), seen, style);
+      lengths.resize(std::max(lengths.size(), now.size()), std::vector<CutLength>(frames));
+      for (std::size_t i = 0; i < now.size(); ++i) lengths[i][k] = now[i];
+    }
+    std::vector<std::vector<CutNumber>> numbers;
+    for (const std::vector<CutLength>& axis : lengths) numbers.push_back(numbers_along(axis, stage_->page.video.fps.value()));
+    return numbers;
   }
 
   EllipseStyle style_in(const Panel& panel, EllipsePart part) const {
@@ -83,6 +100,9 @@ class MassAlong {
   }
 
  private:
+  // Which may hide some of the ellipsoid.
+  bool has_body_shapes(const Panel& panel) const { return panel.motion().shapes() && body() == EllipseBody::solid; }
+
   struct Mass {
     explicit Mass(const StagedRun& motion)
         : mass(motion.chain(), motion.simulation() ? motion.simulation()->constraints : ConstraintPlan{}),
@@ -219,12 +239,25 @@ class EllipseLines : public Layer {
   void draw(Picture& picture, const Shot& shot) const override {
     EllipseStyle style = along_.style_in(shot.panel, EllipsePart::above);
     style.labels = &shot.labels;
+    if (!shot.is_still) style.cut_numbers = cut_numbers_at(shot, style);
     along_.draw(picture, shot.panel, shot.k, style);
   }
 
  private:
+  std::vector<CutNumber> cut_numbers_at(const Shot& shot, const EllipseStyle& style) const {
+    const auto [known, is_new] = cut_numbers_.try_emplace(&shot.panel.motion());
+    if (is_new) {
+      known->second = along_.cut_numbers(shot.panel, style);
+      shot.panel.motion().pose_at(shot.k);  // where the other layers have it
+    }
+    std::vector<CutNumber> now;
+    for (const std::vector<CutNumber>& axis : known->second) now.push_back(axis[std::size_t(shot.k)]);
+    return now;
+  }
+
   MassAlong along_;
   bool has_legend_;
+  mutable std::map<const StagedRun*, std::vector<std::vector<CutNumber>>> cut_numbers_;
   bool is_of_hand_;  // seen in perspective, a bar in the foot would be taken for one of all depths
 };
 

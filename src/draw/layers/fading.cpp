@@ -284,18 +284,21 @@ struct CutEnd {
   Point d;                   // unit, from the middle
   double way = 0;            // until the edge
   double strength = 0;       // of what is said there, 0 where the end is inside
+  std::string bound;         // said instead of the number
 };
 
-CutEnd cut_end(Point center, Point v, const EllipseStyle& style) {
+CutEnd cut_end(Point center, Point v, double length, const EllipseStyle& style) {
   if (!has_one_place(style) || style.hides || !style.signs || !(norm(v) > kNoLength)) return {};
   const Point d = dot(v, style.outward) < 0 ? -1 * unit(v) : unit(v);
-  const double way = way_out(style.scene, center, d);
-  return {d, way, std::clamp((norm(v) - way) / kAppearing, 0.0, 1.0)};
+  const double way = way_out(style.scene, center, d), strength = std::clamp((norm(v) - way) / kAppearing, 0.0, 1.0);
+  const auto said = std::ranges::find(style.cut_numbers, length, &CutNumber::length);
+  if (said == style.cut_numbers.end()) return {d, way, strength, ""};
+  return {d, way, std::min(strength, said->opacity), said->bound};
 }
 
-TextLine text_of_length(double length, double strength, const EllipseStyle& style) {
+TextLine text_of_length(double length, double strength, const EllipseStyle& style, const std::string& bound = "") {
   const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg";
-  return lay_out_text(*style.fonts, format_digits(length, 3) + unit,
+  return lay_out_text(*style.fonts, (bound.empty() ? format_digits(length, 3) : bound) + unit,
                       {Face::label, scaled(size::kTick, style.text_scale), style.theme->ellipse.faded(strength),
                        Align::left});
 }
@@ -317,7 +320,7 @@ Fade fade_before(const TextLine& text, double strength, Point d, Fade fade, bool
 
 // What moves with its axis needs no plan of words: it is there at every frame.
 void draw_at_cut(Picture& picture, double length, Point center, const CutEnd& end, const EllipseStyle& style, int clip) {
-  const TextLine text = text_of_length(length, end.strength, style);
+  const TextLine text = text_of_length(length, end.strength, style, end.bound);
   const double half = half_along(text, end.d), nearest = std::max(style.hole, size::kEndEffector) + kSignAir + half;
   const Rect box = box_near(text, center + std::max(end.way - kCutHead - kSignAir - half, nearest) * end.d, style.scene);
   const Point anchor{box.x0 - text.box.x0, box.y0 - text.box.y0};
@@ -389,6 +392,10 @@ void close_covered(MarkWord& word, const EllipseStyle& style) {
 
 }  // namespace
 
+bool is_cut(Point center, Point v, const EllipseStyle& style) {
+  return cut_end(center, v, 0, style).strength > 0;
+}
+
 void draw_infinities(Picture& picture, Point center, Point d, double half_width, const EllipseStyle& style, int clip) {
   if (!style.signs) return;
   draw_at_edges(picture, infinity(style), center, d, half_width, style, clip, nullptr);
@@ -396,7 +403,7 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 
 void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
                  std::span<const Point> others) {
-  if (const CutEnd end = cut_end(center, v, style); end.strength > 0) return draw_at_cut(picture, length, center, end, style, clip);
+  if (const CutEnd end = cut_end(center, v, length, style); end.strength > 0) return draw_at_cut(picture, length, center, end, style, clip);
   const bool has_no_numbers = style.labels == nullptr && style.unnamed != nullptr;  // a figure with panels too small for them
   const double strength = strength_of_length(center, v, style);
   if (strength > 0 && !has_no_numbers && !has_one_place(style))
@@ -438,8 +445,8 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
 }
 
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style) {
-  if (const CutEnd end = cut_end(center, v, style); end.strength > 0)
-    return fade_before(text_of_length(length, end.strength, style), end.strength, end.d, whole, true, kCutHead + kSignAir);
+  if (const CutEnd end = cut_end(center, v, length, style); end.strength > 0)
+    return fade_before(text_of_length(length, end.strength, style, end.bound), end.strength, end.d, whole, true, kCutHead + kSignAir);
   const double strength = strength_of_length(center, v, style);
   if (!(strength > 0) || has_one_place(style)) return whole;
   return fade_before(text_of_length(length, strength, style), strength, unit(v), whole);

@@ -89,6 +89,9 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
                  std::span<const Point> others = {});
 
+// Whether a film has the length of this axis where it leaves the scene.
+bool is_cut(Point center, Point v, const EllipseStyle& style);
+
 // The name of such numbers among words.
 inline constexpr const char* kLengthAtEdge = "length";
 

@@ -30,6 +30,7 @@ struct Shot {
   bool is_over = false;  // the film goes on, the panel stands still
   Point corner;          // lower left of the room that the layer asked for
   MarkLabels& labels;    // takes words, which are drawn above all marks
+  bool is_still = false;  // looked at by itself: nothing runs in it
 };
 
 // The page that all panels share.

@@ -1,0 +1,103 @@
+// What films say of an axis that is cut: words that can be read, true at every frame.
+#include "draw/layers/cut_numbers.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "draw/film/film.hpp"
+#include "draw/shapes.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kFilmRate = 60;
+constexpr double kStepRoundOff = 1e-12;  // of quotients of small whole numbers
+
+// Cut in frames [from, until) of 120, with the mass grow(k) there.
+template <class Grow>
+std::vector<CutNumber> said(int from, int until, Grow grow) {
+  std::vector<CutLength> lengths(120);
+  for (int k = from; k < until; ++k) lengths[std::size_t(k)] = grow(k);
+  return numbers_along(lengths, kFilmRate);
+}
+
+TEST(CutNumbers, OfAPassageThatRunsAreOneBoundThatHoldsInAllOfIt) {
+  const auto grow = [](int k) { return 8.92 * std::pow(1.5, 5 - std::abs(k - 35)); };
+  const auto numbers = said(30, 41, grow);
+  double before = 0;
+  for (int k = 29; k < 42; ++k) {
+    const CutNumber& now = numbers[std::size_t(k)];
+    if (k >= 30 && k < 41) {
+      EXPECT_EQ(now.bound, "> 8") << k;
+      EXPECT_GT(now.length, 8) << k;
+      EXPECT_GT(now.opacity, 0) << k;
+    }
+    const double opacity = k >= 30 && k < 41 ? now.opacity : 0;
+    EXPECT_LE(std::abs(opacity - before), 0.25 + kStepRoundOff) << "a third of 11 frames, rounded, to come: " << k;
+    before = opacity;
+  }
+  EXPECT_EQ(numbers[35].opacity, 1);
+}
+
+// Negative control: a number that can be read is said.
+TEST(CutNumbers, StandWhereTheyChangeSlowly) {
+  const auto numbers = said(20, 100, [](int k) { return 10 * std::pow(1.3, k / 60.0); });
+  for (int k = 20; k < 100; ++k) EXPECT_EQ(numbers[std::size_t(k)].bound, "");
+  // 0.15 s are 9 frames.
+  EXPECT_NEAR(numbers[20].opacity, 1.0 / 9, kStepRoundOff);
+  EXPECT_EQ(numbers[28].opacity, 1);
+  EXPECT_NEAR(numbers[99].opacity, 1.0 / 9, kStepRoundOff);
+  // A passage that is too short to read a number, however slow.
+  EXPECT_EQ(said(20, 50, [](int) { return 10.5; })[30].bound, "> 10");
+}
+
+TEST(CutNumbers, AreWhereThePassageSlowsDown) {
+  // Quick for 0.1 s, then slow until the end of the film.
+  const auto numbers = said(10, 120, [](int k) { return 4.2 * std::pow(1.4, std::min(k - 10, 6)); });
+  EXPECT_EQ(numbers[12].bound, "> 4");
+  EXPECT_EQ(numbers[110].bound, "");
+  EXPECT_EQ(numbers[119].opacity, 1) << "where the film ends nothing goes";
+  std::set<std::string> bounds;
+  for (int k = 10; k < 120; ++k) bounds.insert(numbers[std::size_t(k)].bound);
+  EXPECT_EQ(bounds.size(), 2u);
+}
+
+TEST(CutNumbers, BoundsAreBelowAllThatTheyAreOf) {
+  const auto bound = [](double length) { return said(20, 25, [&](int) { return length; })[22].bound; };
+  EXPECT_EQ(bound(8.001), "> 8");
+  EXPECT_EQ(bound(8), "> 7") << "it is not above itself";
+  EXPECT_EQ(bound(1), "> 0.9");
+  EXPECT_EQ(bound(575), "> 500");
+  EXPECT_EQ(bound(0.0342), "> 0.03");
+  EXPECT_EQ(said(20, 25, [](int k) { return k == 22 ? HUGE_VAL : 34.0; })[22].bound, "> 30") << "of an open one, too";
+}
+
+// The film of the fall: through the straight pose the ellipse grows out of its scene and comes back within 0.2 s. A still of an
+// instant within has its number.
+TEST(CutNumbers, OfAFilmAreNoneThatRuns) {
+  const Scene scene = read_scene("assets/scenes/rr_ellipse.yaml");
+  const Simulation simulation = prepare(scene, false);
+  std::vector<double> times;
+  for (int k = 0; k < 60; ++k) times.push_back(k / kFilmRate);
+  const Trajectory run = simulate(simulation, times);
+  const Fonts fonts;
+  const Film film(scene, {{scene, simulation.chain, run, &simulation}}, times, fonts);
+  std::set<std::string> words, of_stills;
+  for (int k = 20; k < 40; ++k) {
+    for (const auto& [picture, seen] : {std::pair{film.frame(k), &words}, {film.still(k), &of_stills}})
+      for (const GlyphRun& run : test::all_of<GlyphRun>(picture))
+        if (run.text.ends_with(" kg") && run.color.a > 0) seen->insert(run.text);
+  }
+  words.erase("1.00 kg");
+  int bounds = 0;
+  for (const std::string& word : words) bounds += word.starts_with(">") ? 1 : 0;
+  EXPECT_EQ(bounds, 1);
+  for (const std::string& word : of_stills) EXPECT_FALSE(word.starts_with(">")) << word;
+}
+
+}  // namespace
+}  // namespace chainreel
