@@ -79,7 +79,7 @@ TEST(CutNumbers, BoundsAreBelowAllThatTheyAreOf) {
 // The film of the fall: through the straight pose the ellipse grows out of its scene and comes back within 0.2 s. A still of an
 // instant within has its number.
 TEST(CutNumbers, OfAFilmAreNoneThatRuns) {
-  const Scene scene = read_scene("assets/scenes/rr_ellipse.yaml");
+  Scene scene = read_scene("assets/scenes/rr_ellipse.yaml");
   const Simulation simulation = prepare(scene, false);
   std::vector<double> times;
   for (int k = 0; k < 60; ++k) times.push_back(k / kFilmRate);
@@ -89,8 +89,8 @@ TEST(CutNumbers, OfAFilmAreNoneThatRuns) {
   std::set<std::string> words, of_stills;
   for (int k = 20; k < 40; ++k) {
     for (const auto& [picture, seen] : {std::pair{film.frame(k), &words}, {film.still(k), &of_stills}})
-      for (const GlyphRun& run : test::all_of<GlyphRun>(picture))
-        if (run.text.ends_with(" kg") && run.color.a > 0) seen->insert(run.text);
+      for (const GlyphRun& glyphs : test::all_of<GlyphRun>(picture))
+        if (glyphs.text.ends_with(" kg") && glyphs.color.a > 0) seen->insert(glyphs.text);
   }
   words.erase("1.00 kg");
   int bounds = 0;
