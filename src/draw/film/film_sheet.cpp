@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "draw/page/wrapped_words.hpp"
 #include "sim/audit.hpp"
 #include "sim/doubts.hpp"
 
@@ -83,6 +84,8 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
 
 constexpr double kNamesPad = 0.35;     // likewise, at both sides: a sheet's cells have no margin
 constexpr double kSmallerNames = 0.75;  // of Video::panel_names: smaller they are cut
+constexpr int kNameLines = 3;           // then they are cut
+constexpr double kMostOfNames = 0.25;   // of a sheet's cell: the rest is for what they name
 
 double full_title_size(const Scene& page) {
   return page.video.panel_names > 0 ? page.video.panel_names : scaled(size::kSymbol, page.text_scale);
@@ -98,6 +101,26 @@ double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
     if (line.advance > 0) common = std::min(common, full * (cells[i].title.width() - 2 * kNamesPad * names) / line.advance);
   }
   return std::max(common, names > 0 ? kSmallerNames * names : std::min(full, scaled(kSmallestText, stage.page.text_scale)));
+}
+
+// How many lines a name of a sheet takes within a width.
+int name_lines(const Fonts& fonts, const std::string& title, const TextStyle& style, double width) {
+  double lowest = 0;
+  for (const GlyphRun& run : lay_out_within(fonts, title, style, width).runs) lowest = std::min(lowest, run.origin.y);
+  return 1 + int(std::lround(-lowest / (kLeading * style.size)));
+}
+
+// What the names of a sheet's panels take above panels that stand side by side, where they have least width.
+double row_of_names(const Stage& stage, const Rect& scene) {
+  const double full = full_title_size(stage.page), size = kSmallerNames * full;
+  const auto count = double(stage.motions.size());
+  const double width = (scene.width() - (count - 1) * size::kGutter) / count - 2 * kNamesPad * full;
+  int lines = 1;
+  for (const StagedRun& motion : stage.motions)
+    lines = std::max(lines, std::min(kNameLines, name_lines(stage.fonts, motion.title(), {Face::label_bold, size, stage.theme.ink}, width)));
+  const double one = kTitleRow * full;
+  while (lines > 1 && one + (lines - 1) * kLeading * size > kMostOfNames * scene.height()) --lines;
+  return one + (lines - 1) * kLeading * size;
 }
 
 // Whoever wrote a title is told that it is too long; one that says what a panel differs in was made up, at first or when the
@@ -127,7 +150,7 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& stor
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
   if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story, room);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
-  if (has_panel_titles) rows.title = kTitleRow * full_title_size(page);
+  if (has_panel_titles) rows.title = page.video.panel_names > 0 ? row_of_names(stage, sheet.scene) : kTitleRow * full_title_size(page);
   if (text.with_panel_titles && stage.is_ghost()) {
     key.emplace(stage, sheet.scene.width());
     rows.title = key->height();
@@ -193,6 +216,14 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
   if (!has_panel_titles) return titles;
   const double text_size = title_size(stage, cells);
   const double pad = kNamesPad * stage.page.video.panel_names;
+  // Names of a sheet begin on one line, as many of them as one takes.
+  const auto lines_of = [&](std::size_t i) {
+    return name_lines(stage.fonts, stage.motions[i].title(), {Face::label_bold, text_size, stage.theme.ink}, cells[i].title.width() - 2 * pad);
+  };
+  const int room = 1 + int((rows.title - kTitleRow * text_size + kRoundOff) / (kLeading * text_size));
+  int lines = 1;
+  for (std::size_t i = 0; i < cells.size() && pad > 0; ++i)
+    if (const int taken = lines_of(i); taken <= room) lines = std::max(lines, taken);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Rect row{cells[i].title.x0 + pad, cells[i].title.y0, cells[i].title.x1 - pad, cells[i].title.y1};
     const auto& variant = stage.motions[i].variant();
@@ -200,6 +231,8 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
     const TextStyle style{Face::label_bold, text_size, color};
     const std::string title = stage.motions[i].title();
     TextLine line = lay_out_words(stage.fonts, title, style);
+    if (line.advance > row.width() + kRoundOff && pad > 0 && lines_of(i) <= lines)
+      if (TextLine wrapped = lay_out_within(stage.fonts, title, style, row.width()); wrapped.box.width() <= row.width() + kRoundOff) line = std::move(wrapped);
     if (line.advance > row.width() + kRoundOff && (stage.page.video.panel_names > 0 || is_made_up(stage.motions[i])))
       line = abbreviated(stage.fonts, title, style, row.width());
     if (line.runs.empty() && stage.page.video.panel_names > 0) continue;  // a cell of a sheet too small for names
@@ -208,7 +241,7 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
                   "the title of panel " + std::to_string(i + 1) +
                       " does not fit above it: give the panel a short `title:`",
                   stage.motions[i].scene().place_of("title"));
-    titles.push_back({std::move(line), {row.x0, row.y0 + kTitleDescent * text_size}});
+    titles.push_back({std::move(line), {row.x0, row.y0 + (kTitleDescent + (lines - 1) * kLeading) * text_size}});
   }
   return titles;
 }

@@ -6,7 +6,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kNarrower = 0.96, kNarrowest = 0.3, kLeading = 1.3;  // em from line to line
+constexpr double kNarrower = 0.96, kNarrowest = 0.3;
 
 // Adds a line's ink at a place.
 void append(TextLine& line, const TextLine& piece, Point at) {
