@@ -95,7 +95,8 @@ std::optional<Composition> with_plots_beside_panels(const Scene& page, const Sho
     const double spare = first.sheet.sheet.scene.width() - count * panel - (count - 1) * size::kGutter;
     room.beside = std::clamp(kPlotsBeside + spare / first.sheet.sheet.aspect, kNarrowestPlots, kWidestPlots);
     Composition beside = with_readable_words(page, film, story, room);
-    const bool is_as_good = beside.left_out == below.left_out && beside.view.camera.scale >= below.view.camera.scale && lack_of_room(beside).what.empty();
+    // Words go in one order: fewer of them are some of those that go below.
+    const bool is_as_good = beside.left_out.size() <= below.left_out.size() && beside.view.camera.scale >= below.view.camera.scale && lack_of_room(beside).what.empty();
     if (is_as_good) return beside;
   } catch (const Error& error) {
     if (!tells_of_no_room(error)) throw;

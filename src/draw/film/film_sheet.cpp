@@ -85,10 +85,48 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
 constexpr double kNamesPad = 0.35;     // likewise, at both sides: a sheet's cells have no margin
 constexpr double kSmallerNames = 0.75;  // of Video::panel_names: smaller they are cut
 constexpr int kNameLines = 3;           // then they are cut
+constexpr int kTitleLines = 2;          // of a film: more would be a text
 constexpr double kMostOfNames = 0.25;   // of a sheet's cell: the rest is for what they name
 
 double full_title_size(const Scene& page) {
   return page.video.panel_names > 0 ? page.video.panel_names : scaled(size::kSymbol, page.text_scale);
+}
+
+double least_title_size(const Scene& page) {
+  const double names = page.video.panel_names;
+  return names > 0 ? kSmallerNames * names : std::min(full_title_size(page), scaled(kSmallestText, page.text_scale));
+}
+
+// How many lines a title takes within a width.
+int title_lines(const Fonts& fonts, const std::string& title, const TextStyle& style, double width) {
+  double lowest = 0;
+  for (const GlyphRun& run : lay_out_within(fonts, title, style, width).runs) lowest = std::min(lowest, run.origin.y);
+  return 1 + int(std::lround(-lowest / (kLeading * style.size)));
+}
+
+double height_of_titles(int lines, double size) {
+  return (kTitleRow + (lines - 1) * kLeading) * size;
+}
+
+// The largest size at which all titles have room on so many lines within the width, in a row so high.
+struct TitleFit {
+  double size = 0;
+  int lines = 1;
+};
+std::optional<TitleFit> fit_titles(const Stage& stage, double width, int most_lines, double most_height) {
+  constexpr double kSmaller = 0.96;  // from trial to trial
+  const double least = least_title_size(stage.page);
+  for (double size = full_title_size(stage.page);; size = std::max(least, kSmaller * size)) {
+    int lines = 1;
+    bool fits = true;
+    for (const StagedRun& motion : stage.motions) {
+      const TextStyle style{Face::label_bold, size, stage.theme.ink};
+      lines = std::max(lines, title_lines(stage.fonts, motion.title(), style, width));
+      fits = fits && lay_out_within(stage.fonts, motion.title(), style, width).box.width() <= width + kRoundOff;
+    }
+    if (fits && lines <= most_lines && height_of_titles(lines, size) <= most_height + kRoundOff) return TitleFit{size, lines};
+    if (!(size > least)) return std::nullopt;
+  }
 }
 
 // The size at which every panel's title fits, if it is not too small to read.
@@ -100,14 +138,12 @@ double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
         lay_out_words(stage.fonts, stage.motions[i].title(), {Face::label_bold, full, stage.theme.ink});
     if (line.advance > 0) common = std::min(common, full * (cells[i].title.width() - 2 * kNamesPad * names) / line.advance);
   }
-  return std::max(common, names > 0 ? kSmallerNames * names : std::min(full, scaled(kSmallestText, stage.page.text_scale)));
-}
-
-// How many lines a name of a sheet takes within a width.
-int name_lines(const Fonts& fonts, const std::string& title, const TextStyle& style, double width) {
-  double lowest = 0;
-  for (const GlyphRun& run : lay_out_within(fonts, title, style, width).runs) lowest = std::min(lowest, run.origin.y);
-  return 1 + int(std::lround(-lowest / (kLeading * style.size)));
+  const double least = least_title_size(stage.page);
+  if (!(common < least)) return common;
+  // On several lines, where the row has room for them.
+  const Rect& row = cells.front().title;
+  const auto fit = fit_titles(stage, row.width() - 2 * kNamesPad * names, kNameLines, row.height());
+  return fit ? fit->size : least;
 }
 
 // What the names of a sheet's panels take above panels that stand side by side, where they have least width.
@@ -117,10 +153,10 @@ double row_of_names(const Stage& stage, const Rect& scene) {
   const double width = (scene.width() - (count - 1) * size::kGutter) / count - 2 * kNamesPad * full;
   int lines = 1;
   for (const StagedRun& motion : stage.motions)
-    lines = std::max(lines, std::min(kNameLines, name_lines(stage.fonts, motion.title(), {Face::label_bold, size, stage.theme.ink}, width)));
-  const double one = kTitleRow * full;
-  while (lines > 1 && one + (lines - 1) * kLeading * size > kMostOfNames * scene.height()) --lines;
-  return one + (lines - 1) * kLeading * size;
+    lines = std::max(lines, std::min(kNameLines, title_lines(stage.fonts, motion.title(), {Face::label_bold, size, stage.theme.ink}, width)));
+  const auto height = [&] { return kTitleRow * full + (lines - 1) * kLeading * size; };
+  while (lines > 1 && height() > kMostOfNames * scene.height()) --lines;
+  return height();
 }
 
 // Whoever wrote a title is told that it is too long; one that says what a panel differs in was made up, at first or when the
@@ -211,18 +247,25 @@ double FilmSheet::widest_title(const Stage& stage) const {
   return widest;
 }
 
+std::optional<double> FilmSheet::row_of_titles(const Stage& stage, double width) const {
+  if (!has_panel_titles || widest_title(stage) <= width) return rows.title;
+  const auto fit = fit_titles(stage, width, kTitleLines, HUGE_VAL);
+  if (!fit) return std::nullopt;
+  return std::max(rows.title, height_of_titles(fit->lines, fit->size));
+}
+
 std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const {
   std::vector<PlacedText> titles;
   if (!has_panel_titles) return titles;
   const double text_size = title_size(stage, cells);
   const double pad = kNamesPad * stage.page.video.panel_names;
-  // Names of a sheet begin on one line, as many of them as one takes.
+  // All begin at the same height, with as many lines as one takes.
   const auto lines_of = [&](std::size_t i) {
-    return name_lines(stage.fonts, stage.motions[i].title(), {Face::label_bold, text_size, stage.theme.ink}, cells[i].title.width() - 2 * pad);
+    return title_lines(stage.fonts, stage.motions[i].title(), {Face::label_bold, text_size, stage.theme.ink}, cells[i].title.width() - 2 * pad);
   };
-  const int room = 1 + int((rows.title - kTitleRow * text_size + kRoundOff) / (kLeading * text_size));
+  const int room = 1 + int((cells.front().title.height() - kTitleRow * text_size + kRoundOff) / (kLeading * text_size));
   int lines = 1;
-  for (std::size_t i = 0; i < cells.size() && pad > 0; ++i)
+  for (std::size_t i = 0; i < cells.size() && room > 1; ++i)
     if (const int taken = lines_of(i); taken <= room) lines = std::max(lines, taken);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Rect row{cells[i].title.x0 + pad, cells[i].title.y0, cells[i].title.x1 - pad, cells[i].title.y1};
@@ -231,7 +274,7 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
     const TextStyle style{Face::label_bold, text_size, color};
     const std::string title = stage.motions[i].title();
     TextLine line = lay_out_words(stage.fonts, title, style);
-    if (line.advance > row.width() + kRoundOff && pad > 0 && lines_of(i) <= lines)
+    if (line.advance > row.width() + kRoundOff && lines_of(i) <= lines)
       if (TextLine wrapped = lay_out_within(stage.fonts, title, style, row.width()); wrapped.box.width() <= row.width() + kRoundOff) line = std::move(wrapped);
     if (line.advance > row.width() + kRoundOff && (stage.page.video.panel_names > 0 || is_made_up(stage.motions[i])))
       line = abbreviated(stage.fonts, title, style, row.width());

@@ -15,7 +15,7 @@ namespace {
 constexpr double kLargestAside = 0.6;  // of a panel's width may be taken by what stands beside its scene
 constexpr double kAir = 0.010;         // around a part of the page that is left free
 
-// Pages higher than wide: panels stand above one another, and marks are those of a page as wide.
+// Pages higher than wide: marks are those of a page as wide.
 bool is_portrait(const Scene& page) {
   return page.video.height > page.video.width;
 }
@@ -25,10 +25,26 @@ bool is_paper(const Scene& page) {
   return page.video.least_text > 0;
 }
 
-bool side_by_side(const Stage& stage, const FilmSheet& sheet, const Rect& area) {
-  if (is_portrait(stage.page)) return false;
+// Panels as a comparison has them: side by side, on paper unless their titles are too long for that. On pages higher than wide above one another,
+// unless what they show is larger side by side.
+std::vector<PanelCell> compared_cells(const Stage& stage, const FilmSheet& sheet, const Rect& area, const FitBox& box) {
   const int count = int(stage.motions.size());
-  return !is_paper(stage.page) || panel_cells(area, count, count, sheet.rows)[0].scene.width() >= sheet.widest_title(stage);
+  std::vector<PanelCell> beside = panel_cells(area, count, count, sheet.rows), above = panel_cells(area, count, 1, sheet.rows);
+  const double width = beside[0].title.width();
+  if (is_paper(stage.page)) return !is_portrait(stage.page) && width >= sheet.widest_title(stage) ? beside : above;
+  if (!is_portrait(stage.page) && !sheet.has_plots_beside) return beside;
+  const auto row = sheet.row_of_titles(stage, width);
+  if (!row) return is_portrait(stage.page) ? above : beside;
+  PanelRows rows = sheet.rows;
+  rows.title = *row;
+  beside = panel_cells(area, count, count, rows);
+  if (!is_portrait(stage.page)) return beside;
+  const auto scale_in = [&](const PanelCell& cell) {
+    Camera camera;
+    fit_to(camera, box, cell.scene, size::kFitMargin);
+    return camera.scale;
+  };
+  return scale_in(beside[0]) > scale_in(above[0]) ? beside : above;
 }
 
 // What a camera with these axes must hold of a motion: the chain, and what layers draw over it. Wild ones count with
@@ -75,7 +91,7 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, doub
   area.y0 += row_below;
   const std::vector<PanelCell> cells =
       stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
-      : stage.page.layout == PageLayout::compare ? panel_cells(area, count, side_by_side(stage, sheet, area) ? count : 1, sheet.rows)
+      : stage.page.layout == PageLayout::compare ? compared_cells(stage, sheet, area, box)
                                         : best_cells(area, count, sheet.rows, box, sheet.widest_title(stage), is_paper(stage.page), stage.page.video.panel_names > 0);
   if (cells.empty())
     throw Error(ExitCode::bad_input,

@@ -332,6 +332,34 @@ TEST_F(PanelFilm, KeepsEverythingThatMovesInsideItsPanelAndWordsOutside) {
     for (int j = 0; j < i; ++j) EXPECT_FALSE(test::overlap(five.scene_area(i), five.scene_area(j)));
 }
 
+// On a page higher than wide what is tall stands side by side, with titles on two lines; negative control: what is flat does not.
+TEST_F(PanelFilm, OnAHighPageStandAsTheyAreLargest) {
+  page.video.width = 1080;
+  page.video.height = 1920;
+  for (const bool is_tall : {true, false}) {
+    scenes.clear();
+    runs.clear();
+    const auto swinging = [&](double t) { return is_tall ? std::vector<double>{0, 3 * std::cos(3 * t)} : std::vector<double>{3 * std::cos(3 * t), 0}; };
+    add("is as bounded as it can be", swinging);
+    add("grows by half from step to step", swinging);
+    const Film both = film();
+    EXPECT_EQ(both.scene_area(0).y0 == both.scene_area(1).y0, is_tall);
+    EXPECT_EQ(both.scene_area(0).x0 == both.scene_area(1).x0, !is_tall);
+    EXPECT_THAT(test::words_of(both.static_layer()), testing::Not(testing::HasSubstr("\u2026")));
+  }
+}
+
+// Negative control: a name of one word that is wider than its panel is cut.
+TEST_F(PanelFilm, OfASheetHaveNamesOnSeveralLines) {
+  page.video.panel_names = 0.05;
+  add("truth (Taylor series)", sliding);
+  add("explicit Euler, 20 ms", sliding);
+  add("semi-implicit Euler, 20 ms", sliding);
+  EXPECT_THAT(test::words_of(film().static_layer()), testing::Not(testing::HasSubstr("\u2026")));
+  scenes.back()->title = "semiimplicitEulerwithstepsof20ms";
+  EXPECT_THAT(test::words_of(film().static_layer()), testing::HasSubstr("\u2026"));
+}
+
 TEST_F(PanelFilm, BlamesThePanelWhoseTitleDoesNotFit) {
   add("left", sliding);
   add(std::string(120, 'm'), sliding);
