@@ -296,7 +296,7 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
   // A word beside a dot is the name of nothing.
   if (vector.label.empty() || !(turn > kLeastNamed * widest)) return;
-  const TextLine& text = label(vector, marks, style.broken > 0);
+  const TextLine& text = label(vector, marks, style.broken > 0 || vector.has_number);
   const double half_head = marks * size::kArrowHeadWidth / 2;
   const double off = std::max(grown * radius, kLeastLabelled * marks) + half_head + kVectorLabelGap;
   MarkWord word{word_name(vector), text, {}, std::nullopt, Tie{center, grown * radius + half_head, style.color}};

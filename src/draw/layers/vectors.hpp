@@ -34,6 +34,7 @@ struct WorldVector {
   Eigen::Vector3d rail = Eigen::Vector3d::Zero();   // of a joint force, unit: it is drawn beside its rail
   std::string label{};                              // a symbol in math notation
   double ring = 0;  // of a torque: opacity of the ring which says that it rests
+  bool has_number = false;  // of a torque: its name says its size, as where its arc is cut
   double size = 1;  // of a torque's arc: less where links are short on the page
   bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
   double aside = 0;     // units of H, to the left of its own way: it stands beside what it would hide, and a line ties it to its place

@@ -190,6 +190,23 @@ TEST_F(FallingHuman, HasItsCentreOfMassOverArcsAndNamesWhereTheGroundPresses) {
   EXPECT_THAT(test::words_of(film.static_layer()), HasSubstr("ground reaction 200 Ncentre of pressure"));
 }
 
+// Words have the size of a torque whose arc is cut a while before it is, so that no number is there for one frame.
+TEST_F(FallingHuman, NumbersOfTorquesComeBeforeTheirArcsAreCut) {
+  const Film film = this->film(&simulation_);
+  const std::string sign = "3=\u2212";
+  const auto size_at = [&](int k) {
+    const std::string words = test::words_of(film.frame(k));
+    const std::size_t at = words.find(sign);
+    return at == std::string::npos ? NAN : std::stod(words.substr(at + sign.size()));
+  };
+  EXPECT_TRUE(std::isnan(size_at(0))) << "negative control";
+  int first = 0;
+  while (first < run_.size() && std::isnan(size_at(first))) ++first;
+  ASSERT_LT(first, run_.size());
+  // Of arcs the widest is 300 of 240 degrees for the 95th percentile, which at the end is passed by far.
+  EXPECT_LT(size_at(first), 0.35 * size_at(run_.size() - 1));
+}
+
 // At the end the note has the name of the height, which its line has until then.
 TEST_F(FallingHuman, NamesTheHeightOnce) {
   const std::string words = test::words_of(film(&simulation_).frame(run_.size() - 1)), name = "hip where the knee was";
