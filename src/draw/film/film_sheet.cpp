@@ -146,17 +146,13 @@ double title_size(const Stage& stage, const std::vector<PanelCell>& cells) {
   return fit ? fit->size : least;
 }
 
-// What the names of a sheet's panels take above panels that stand side by side, where they have least width.
+// What the names of a sheet's panels take above panels that stand side by side, where they have least width: one line unless all have room on more.
 double row_of_names(const Stage& stage, const Rect& scene) {
-  const double full = full_title_size(stage.page), size = kSmallerNames * full;
+  const double full = full_title_size(stage.page), one = kTitleRow * full;
   const auto count = double(stage.motions.size());
   const double width = (scene.width() - (count - 1) * size::kGutter) / count - 2 * kNamesPad * full;
-  int lines = 1;
-  for (const StagedRun& motion : stage.motions)
-    lines = std::max(lines, std::min(kNameLines, title_lines(stage.fonts, motion.title(), {Face::label_bold, size, stage.theme.ink}, width)));
-  const auto height = [&] { return kTitleRow * full + (lines - 1) * kLeading * size; };
-  while (lines > 1 && height() > kMostOfNames * scene.height()) --lines;
-  return height();
+  const auto fit = fit_titles(stage, width, kNameLines, kMostOfNames * scene.height());
+  return fit ? std::max(one, height_of_titles(fit->lines, fit->size)) : one;
 }
 
 // Whoever wrote a title is told that it is too long; one that says what a panel differs in was made up, at first or when the
