@@ -199,7 +199,8 @@ TEST(LayoutCompare, HasThePlotBesidePanelsOfANarrowMotion) {
   const Rect narrow = area_of({}), wide = area_of({"camera.fit=[-2, -0.5, 2, 0.5]"}), upright = area_of({"video.width=1080", "video.height=1920"});
   EXPECT_GT(narrow.height(), 1.5 * wide.height());
   EXPECT_LT(narrow.width(), 0.65 * wide.width());
-  EXPECT_GT(upright.width(), 0.8 * 1080 / 1920.0) << "no page for plots beside anything";
+  EXPECT_LT(upright.width(), 0.5 * 1080 / 1920.0) << "side by side, above their plot";
+  EXPECT_GT(upright.height(), 0.4);
 }
 
 TEST(LayoutAuto, TakesNothingFromAMotionAndNothingIsToldOfPicturesOfMassesOrWithoutWords) {

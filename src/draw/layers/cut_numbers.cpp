@@ -19,27 +19,22 @@ struct Passage {
   bool is_bound;
 };
 
-// Of the frames [begin, end), all of them cut, those whose number runs.
+// Of the frames [begin, end), all of them cut, those whose number runs: within no glance that they are part of it can be read.
 std::vector<bool> quick_frames(const std::vector<CutLength>& lengths, std::size_t begin, std::size_t end, double fps) {
-  const auto half = std::size_t(std::ceil(kGlance / 2 * fps));
-  std::vector<bool> quick;
-  for (std::size_t k = begin; k < end; ++k) {
-    const auto first = lengths.begin() + std::ptrdiff_t(std::max(begin + half, k) - half);
-    const auto last = lengths.begin() + std::ptrdiff_t(std::min(end, k + half + 1));
+  const auto glance = std::size_t(std::ceil(kGlance * fps)) + 1;
+  std::vector<bool> quick(end - begin, true);
+  for (std::size_t k = begin; k + glance <= end; ++k) {
+    const auto first = lengths.begin() + std::ptrdiff_t(k), last = first + std::ptrdiff_t(glance);
     const auto [least, most] = std::minmax_element(first, last);
-    quick.push_back(!(**most <= kQuick * **least));
+    if (**most <= kQuick * **least) std::fill_n(quick.begin() + std::ptrdiff_t(k - begin), glance, false);
   }
   return quick;
 }
 
-// A bound stands for as long as it takes to read it, and numbers do.
+// Numbers stand for as long as it takes to read them, bounds between them.
 std::vector<Passage> passages_of(const std::vector<CutLength>& lengths, std::size_t begin, std::size_t end, double fps) {
   const double least = kLeastReading * fps;
-  const std::vector<bool> quick = quick_frames(lengths, begin, end, fps);
-  const auto around = std::size_t(std::ceil(least / 2));
-  std::vector<bool> bound(quick.size());
-  for (std::size_t k = 0; k < quick.size(); ++k)
-    for (std::size_t i = std::max(k, around) - around; quick[k] && i < std::min(quick.size(), k + around + 1); ++i) bound[i] = true;
+  const std::vector<bool> bound = quick_frames(lengths, begin, end, fps);
   std::vector<Passage> passages;
   for (std::size_t k = 0, next = 0; k < bound.size(); k = next) {
     while (next < bound.size() && bound[next] == bound[k]) ++next;
