@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kQuick = 1.3;         // times: more than that within kGlance, the third digit is not all that runs
 constexpr double kGlance = 0.25;       // s: as long as an eye takes for a number
-constexpr double kLeastReading = 0.6;  // s: words that stand shorter are not read before they change
+constexpr double kLeastReading = 0.5;  // s: words that stand shorter are not read before they change
 constexpr double kComing = 0.15;       // s: to come, and to go
 
 // Frames [begin, end) of which the same kind of words is said.

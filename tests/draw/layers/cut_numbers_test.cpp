@@ -52,7 +52,7 @@ TEST(CutNumbers, StandWhereTheyChangeSlowly) {
   EXPECT_EQ(numbers[28].opacity, 1);
   EXPECT_NEAR(numbers[99].opacity, 1.0 / 9, kStepRoundOff);
   // A passage that is too short to read a number, however slow.
-  EXPECT_EQ(said(20, 50, [](int) { return 10.5; })[30].bound, "> 10");
+  EXPECT_EQ(said(20, 45, [](int) { return 10.5; })[30].bound, "> 10");
 }
 
 TEST(CutNumbers, AreWhereThePassageSlowsDown) {
