@@ -6,12 +6,11 @@
 
 #include "picture/plot.hpp"
 #include "picture/point.hpp"
+#include "picture/thin_points.hpp"
 
 namespace chainreel {
 namespace {
 
-constexpr double kColumn = 0.0007;  // a page of 4K has a pixel every 0.0005 H
-constexpr std::size_t kManyPoints = 3000;
 constexpr double kDashOn = 0.018, kDashOff = 0.008, kDotOn = 0.004, kDotOff = 0.007;
 constexpr double kShortestDash = 0.0004;  // round ends make a dot of it
 constexpr double kHalo = 0.0016;          // of the background around a marker, where curves cross
@@ -47,21 +46,8 @@ std::vector<Path> paths_of(const PlotFrame& frame, std::span<const Point> data) 
 }
 
 Path thinned(const Path& path) {
-  if (path.size() <= kManyPoints) return path;
   Path kept;
-  for (std::size_t first = 0; first < path.size();) {
-    const double column = std::floor(path[first].x / kColumn);
-    std::size_t last = first, low = first, high = first;
-    for (std::size_t i = first; i < path.size() && std::floor(path[i].x / kColumn) == column; ++i) {
-      last = i;
-      if (path[i].y < path[low].y) low = i;
-      if (path[i].y > path[high].y) high = i;
-    }
-    std::array<std::size_t, 4> order = {first, std::min(low, high), std::max(low, high), last};
-    for (std::size_t k = 0; k < order.size(); ++k)
-      if (k == 0 || order[k] != order[k - 1]) kept.push_back(path[order[k]]);
-    first = last + 1;
-  }
+  for (const std::size_t i : column_points(path)) kept.push_back(path[i]);
   return kept;
 }
 

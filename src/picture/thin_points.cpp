@@ -6,6 +6,8 @@
 namespace chainreel {
 namespace {
 
+constexpr double kColumn = 0.0007;  // a page of 4K has a pixel every 0.0005 H
+constexpr std::size_t kManyPoints = 3000;
 constexpr double kOff = 0.00005;  // units of H: a twentieth of a pixel of 1080 lines, a tenth of one of 2160
 
 // Directions of lines from one point that pass others within kOff, and end behind them. None turns back to the left.
@@ -58,6 +60,30 @@ std::vector<std::size_t> thin_points(const PlotFrame& frame, std::span<const Poi
       directions.narrow(d);
   }
   if (!data.empty()) keep(data.size() - 1, true);
+  // A long film draws them in each frame.
+  std::vector<Point> page;
+  for (const std::size_t i : kept) page.push_back(frame.at(data[i]));
+  const auto is_shown = [&](std::size_t i) { return frame.can_show(data[i]); };
+  if (kept.size() <= kManyPoints || !std::ranges::all_of(kept, is_shown)) return kept;
+  std::vector<std::size_t> fewer;
+  for (const std::size_t i : column_points(page)) fewer.push_back(kept[i]);
+  return fewer;
+}
+
+std::vector<std::size_t> column_points(std::span<const Point> page) {
+  std::vector<std::size_t> kept;
+  for (std::size_t first = 0; first < page.size();) {
+    const double column = std::floor(page[first].x / kColumn);
+    std::size_t last = first, low = first, high = first;
+    for (std::size_t i = first; i < page.size() && (i == first || (page.size() > kManyPoints && std::floor(page[i].x / kColumn) == column)); ++i) {
+      last = i;
+      if (page[i].y < page[low].y) low = i;
+      if (page[i].y > page[high].y) high = i;
+    }
+    for (const std::size_t i : {first, std::min(low, high), std::max(low, high), last})
+      if (kept.empty() || kept.back() != i) kept.push_back(i);
+    first = last + 1;
+  }
   return kept;
 }
 

@@ -13,4 +13,8 @@ namespace chainreel {
 // does not go on to the right.
 std::vector<std::size_t> thin_points(const PlotFrame& frame, std::span<const Point> data);
 
+// Of many points of a page, to the right each, those that a path through all of them shows: the first, the lowest, the highest and the
+// last of each column that is narrower than a pixel; all of few.
+std::vector<std::size_t> column_points(std::span<const Point> page);
+
 }  // namespace chainreel
