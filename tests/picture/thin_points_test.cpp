@@ -39,7 +39,7 @@ TEST(ThinPoints, PassTheOthersByLessThanATenthOfAPixel) {
   constexpr double kTenth = 0.1 / 1080;
   std::mt19937 random(1);
   std::normal_distribution<double> step(0, 0.01);
-  std::vector<Point> walk = samples(4000, [](double) { return 0.0; });
+  std::vector<Point> walk = samples(2500, [](double) { return 0.0; });
   for (std::size_t i = 1; i < walk.size(); ++i) walk[i].y = walk[i - 1].y + step(random);
   const std::vector<Point> wave = samples(4000, [](double t) { return std::sin(3 * t); });
   const std::vector<Point> steep = samples(4000, [](double t) { return std::tanh(400 * (t - 4.0003)); });
@@ -50,6 +50,21 @@ TEST(ThinPoints, PassTheOthersByLessThanATenthOfAPixel) {
   std::vector<std::size_t> fewer;
   for (std::size_t k = 0; k < kept.size(); k += 3) fewer.push_back(kept[k]);
   EXPECT_GT(worst_distance(wave, fewer), kTenth) << "negative control";
+}
+
+// Of more than a page has columns for, those that a path through all shows: ends, and the highest and the lowest of each column.
+TEST(ThinPoints, OfNoiseAreItsColumns) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> height(-0.5, 0.5);
+  std::vector<Point> noise = samples(100000, [](double) { return 0.0; });
+  for (Point& p : noise) p.y = height(random);
+  noise[54321].y = 0.9;
+  const std::vector<std::size_t> kept = thin_points(kFrame, noise);
+  EXPECT_LE(kept.size(), 4 * (0.8 / 0.0007 + 2));
+  EXPECT_EQ(kept.front(), 0u);
+  EXPECT_EQ(kept.back(), noise.size() - 1);
+  EXPECT_TRUE(std::ranges::binary_search(kept, 54321u)) << "a peak";
+  EXPECT_TRUE(std::ranges::is_sorted(kept));
 }
 
 TEST(ThinPoints, KeepEndsPeaksJumpsAndGaps) {
