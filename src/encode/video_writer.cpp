@@ -116,12 +116,15 @@ struct ChunkEncoder::State {
     if (s.codec == VideoCodec::h264) x264 = std::make_unique<X264Encoder>(s);
   }
 
-  void send(const AVFrame* next, StillBlocks::Flags& still) {
-    if (!x264) {
-      encode_frame(*encoder, next, "", [this](const AVPacket& packet) { chunk.packets.push_back(kept_packet(packet)); });
-    } else if (next != nullptr) {
-      x264->encode(*next, still, [this](FilmPacket packet) { chunk.packets.push_back(std::move(packet)); });
-    }
+  // To FFmpeg's encoder, or with nullptr the end.
+  void send(const AVFrame* next) {
+    encode_frame(*encoder, next, "", [this](const AVPacket& packet) { chunk.packets.push_back(kept_packet(packet)); });
+  }
+  void encode(const AVFrame& next, StillBlocks::Flags& still) {
+    if (x264)
+      chunk.packets.push_back(x264->encode(next, still));
+    else
+      send(&next);
   }
 
   bool has_frame = false;
@@ -189,18 +192,17 @@ void ChunkEncoder::write(const Image& image, const std::vector<PixelBox>& change
     s.tape->state_->frames.emplace_back(check_allocated(libav().av_frame_clone(s.frame.get()), "a frame"));
     s.tape->state_->still.push_back(still);
   } else {
-    s.send(s.frame.get(), still);
+    s.encode(*s.frame, still);
   }
 }
 
 void ChunkEncoder::play(const ChunkTape& tape) {
-  for (std::size_t i = 0; i < tape.state_->frames.size(); ++i) state_->send(tape.state_->frames[i].get(), tape.state_->still[i]);
+  for (std::size_t i = 0; i < tape.state_->frames.size(); ++i) state_->encode(*tape.state_->frames[i], tape.state_->still[i]);
   state_->chunk.frames += tape.frames();
 }
 
 void ChunkEncoder::finish() {
-  StillBlocks::Flags none;
-  state_->send(nullptr, none);
+  if (!state_->x264) state_->send(nullptr);
 }
 
 StageTime ChunkEncoder::conversion() const {

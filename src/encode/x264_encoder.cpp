@@ -135,7 +135,7 @@ std::string X264Encoder::head() const {
   return head;
 }
 
-void X264Encoder::encode(const AVFrame& frame, StillBlocks::Flags& still, const std::function<void(FilmPacket)>& take) {
+FilmPacket X264Encoder::encode(const AVFrame& frame, StillBlocks::Flags& still) {
   x264_picture_t picture, coded;
   x264().x264_picture_init(&picture);
   picture.i_pts = frame.pts;
@@ -150,13 +150,13 @@ void X264Encoder::encode(const AVFrame& frame, StillBlocks::Flags& still, const 
   if (!still.empty()) picture.prop.mb_info = still.data();
   x264_nal_t* units = nullptr;
   int count = 0;
-  // Units lie behind one another. Each frame comes out at once: none is looked at ahead, none waits for another thread.
+  // Units lie behind one another. None of the frames is looked at ahead, none waits for another thread.
   const int bytes = x264().x264_encoder_encode(state_->encoder, &units, &count, &picture, &coded);
   if (bytes <= 0) state_->fail();
-  take({.data = std::string(reinterpret_cast<const char*>(units[0].p_payload), std::size_t(bytes)),
-        .opacity = {},
-        .pts = coded.i_pts,
-        .is_key = coded.b_keyframe != 0});
+  return {.data = std::string(reinterpret_cast<const char*>(units[0].p_payload), std::size_t(bytes)),
+          .opacity = {},
+          .pts = coded.i_pts,
+          .is_key = coded.b_keyframe != 0};
 }
 
 }  // namespace chainreel

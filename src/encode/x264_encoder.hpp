@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,8 +24,8 @@ class X264Encoder {
   std::string head() const;
 
   // Frames of yuv420p in order, their pts set. `still`: empty, or of each block whether its pixels are those of the frame
-  // before; such a block is passed over.
-  void encode(const AVFrame& frame, StillBlocks::Flags& still, const std::function<void(FilmPacket)>& take);
+  // before; such a block is passed over. Each comes out at once.
+  FilmPacket encode(const AVFrame& frame, StillBlocks::Flags& still);
 
  private:
   struct State;

@@ -1,7 +1,6 @@
 // Curves, markers and zones: everything that lies inside of a frame is cut at its box here, so that no output
 // needs a clip for it.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "picture/plot.hpp"

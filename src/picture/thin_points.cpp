@@ -60,22 +60,29 @@ std::vector<std::size_t> thin_points(const PlotFrame& frame, std::span<const Poi
       directions.narrow(d);
   }
   if (!data.empty()) keep(data.size() - 1, true);
-  // A long film draws them in each frame.
-  std::vector<Point> page;
-  for (const std::size_t i : kept) page.push_back(frame.at(data[i]));
-  const auto is_shown = [&](std::size_t i) { return frame.can_show(data[i]); };
-  if (kept.size() <= kManyPoints || !std::ranges::all_of(kept, is_shown)) return kept;
+  if (kept.size() <= kManyPoints) return kept;
+  // A long film draws them in each frame: by columns, between one gap and the next.
   std::vector<std::size_t> fewer;
-  for (const std::size_t i : column_points(page)) fewer.push_back(kept[i]);
+  for (std::size_t first = 0; first < kept.size();) {
+    std::vector<Point> page;
+    for (std::size_t k = first; k < kept.size() && frame.can_show(data[kept[k]]); ++k) page.push_back(frame.at(data[kept[k]]));
+    for (const std::size_t k : column_points(page)) fewer.push_back(kept[first + k]);
+    first += page.size();
+    if (first < kept.size()) fewer.push_back(kept[first++]);
+  }
   return fewer;
 }
 
 std::vector<std::size_t> column_points(std::span<const Point> page) {
   std::vector<std::size_t> kept;
+  if (page.size() <= kManyPoints) {
+    for (std::size_t i = 0; i < page.size(); ++i) kept.push_back(i);
+    return kept;
+  }
   for (std::size_t first = 0; first < page.size();) {
     const double column = std::floor(page[first].x / kColumn);
     std::size_t last = first, low = first, high = first;
-    for (std::size_t i = first; i < page.size() && (i == first || (page.size() > kManyPoints && std::floor(page[i].x / kColumn) == column)); ++i) {
+    for (std::size_t i = first; i < page.size() && std::floor(page[i].x / kColumn) == column; ++i) {
       last = i;
       if (page[i].y < page[low].y) low = i;
       if (page[i].y > page[high].y) high = i;
