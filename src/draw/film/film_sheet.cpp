@@ -97,11 +97,11 @@ double least_title_size(const Scene& page) {
   return names > 0 ? kSmallerNames * names : std::min(full_title_size(page), scaled(kSmallestText, page.text_scale));
 }
 
-// How many lines a title takes within a width.
-int title_lines(const Fonts& fonts, const std::string& title, const TextStyle& style, double width) {
+// How many lines words take that were laid out within a width.
+int lines_of(const TextLine& words, double size) {
   double lowest = 0;
-  for (const GlyphRun& run : lay_out_within(fonts, title, style, width).runs) lowest = std::min(lowest, run.origin.y);
-  return 1 + int(std::lround(-lowest / (kLeading * style.size)));
+  for (const GlyphRun& run : words.runs) lowest = std::min(lowest, run.origin.y);
+  return 1 + int(std::lround(-lowest / (kLeading * size)));
 }
 
 double height_of_titles(int lines, double size) {
@@ -120,9 +120,9 @@ std::optional<TitleFit> fit_titles(const Stage& stage, double width, int most_li
     int lines = 1;
     bool fits = true;
     for (const StagedRun& motion : stage.motions) {
-      const TextStyle style{Face::label_bold, size, stage.theme.ink};
-      lines = std::max(lines, title_lines(stage.fonts, motion.title(), style, width));
-      fits = fits && lay_out_within(stage.fonts, motion.title(), style, width).box.width() <= width + kRoundOff;
+      const TextLine title = lay_out_within(stage.fonts, motion.title(), {Face::label_bold, size, stage.theme.ink}, width);
+      lines = std::max(lines, lines_of(title, size));
+      fits = fits && title.box.width() <= width + kRoundOff;
     }
     if (fits && lines <= most_lines && height_of_titles(lines, size) <= most_height + kRoundOff) return TitleFit{size, lines};
     if (!(size > least)) return std::nullopt;
@@ -255,23 +255,25 @@ std::vector<PlacedText> FilmSheet::panel_titles(const Stage& stage, const std::v
   if (!has_panel_titles) return titles;
   const double text_size = title_size(stage, cells);
   const double pad = kNamesPad * stage.page.video.panel_names;
-  // All begin at the same height, with as many lines as one takes.
-  const auto lines_of = [&](std::size_t i) {
-    return title_lines(stage.fonts, stage.motions[i].title(), {Face::label_bold, text_size, stage.theme.ink}, cells[i].title.width() - 2 * pad);
+  const auto style_of = [&](std::size_t i) {
+    const auto& variant = stage.motions[i].variant();
+    return TextStyle{Face::label_bold, text_size, variant ? variant->color : stage.theme.ink};
   };
+  std::vector<TextLine> wrapped;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    wrapped.push_back(lay_out_within(stage.fonts, stage.motions[i].title(), style_of(i), cells[i].title.width() - 2 * pad));
+  // All begin at the same height, with as many lines as one takes.
   const int room = 1 + int((cells.front().title.height() - kTitleRow * text_size + kRoundOff) / (kLeading * text_size));
   int lines = 1;
   for (std::size_t i = 0; i < cells.size() && room > 1; ++i)
-    if (const int taken = lines_of(i); taken <= room) lines = std::max(lines, taken);
+    if (const int taken = lines_of(wrapped[i], text_size); taken <= room) lines = std::max(lines, taken);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Rect row{cells[i].title.x0 + pad, cells[i].title.y0, cells[i].title.x1 - pad, cells[i].title.y1};
-    const auto& variant = stage.motions[i].variant();
-    const Color color = variant ? variant->color : stage.theme.ink;
-    const TextStyle style{Face::label_bold, text_size, color};
+    const TextStyle style = style_of(i);
     const std::string title = stage.motions[i].title();
     TextLine line = lay_out_words(stage.fonts, title, style);
-    if (line.advance > row.width() + kRoundOff && lines_of(i) <= lines)
-      if (TextLine wrapped = lay_out_within(stage.fonts, title, style, row.width()); wrapped.box.width() <= row.width() + kRoundOff) line = std::move(wrapped);
+    const bool has_room_on_lines = lines_of(wrapped[i], text_size) <= lines && wrapped[i].box.width() <= row.width() + kRoundOff;
+    if (line.advance > row.width() + kRoundOff && has_room_on_lines) line = std::move(wrapped[i]);
     if (line.advance > row.width() + kRoundOff && (stage.page.video.panel_names > 0 || is_made_up(stage.motions[i])))
       line = abbreviated(stage.fonts, title, style, row.width());
     if (line.runs.empty() && stage.page.video.panel_names > 0) continue;  // a cell of a sheet too small for names
