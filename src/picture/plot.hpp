@@ -35,6 +35,7 @@ struct PlotStyle {
   const Fonts* fonts = nullptr;
   const Theme* theme = nullptr;
   double text_scale = 1;
+  double pixel = 0;  // of the page, units of H; 0: it has none, or any number
 
   double text(double size) const;  // a text size of the style guide at this scale
 };

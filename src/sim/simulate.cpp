@@ -132,10 +132,13 @@ class Run {
     append(t, q_, qd_, simulation_.motion_only ? 0 : work_.at(system_, *integrator_, t, q_));
   }
 
-  // From the start on: what lies between samples is kept, too.
-  void keep_between() { between_.emplace(); }
-  // t lies in the last step. Nothing that is told of the run depends on it.
+  // t lies in the last step. Nothing that is told of the run depends on it. The samples are kept beside it from the first such instant on:
+  // long films have none.
   void sample_between(double t) {
+    if (!between_) {
+      between_.emplace();
+      between_->t = trajectory_.t, between_->q = trajectory_.q, between_->qd = trajectory_.qd, between_->work = trajectory_.work;
+    }
     const long evaluations = system_.evaluations();
     place_at(t);
     append_to(*between_, t, q_, qd_, std::numeric_limits<double>::quiet_NaN());
@@ -449,7 +452,7 @@ class Run {
   bool start_anew_ = false;
   Headway headway_;
   Trajectory trajectory_;
-  std::optional<Trajectory> between_;  // these samples and what lies between
+  std::optional<Trajectory> between_;  // these samples and what lies between, where anything does
   long evaluations_between_ = 0;
 };
 
@@ -459,7 +462,6 @@ Trajectory simulate(const Simulation& simulation, std::span<const double> times,
                     const StepObserver& observer, double between) {
   check_ready(simulation, times);
   Run run(simulation, times.size());
-  if (between > 0) run.keep_between();
   SampleInstants instants(times, between, std::max(kBesideCorner * between, 4 * same_instant(simulation)));
   while (instants.next(0)) run.sample_start();
   while (!run.at_end() && !run.ended_early() && !run.stop_requested(stop) && run.take_step()) {

@@ -222,7 +222,7 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, const Plot
   has_plots_beside = place == PlotPlace::right;
   has_plots_stacked = place == PlotPlace::stacked && !areas.plots.empty();
   sheet.scene = areas.scene;
-  const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale};
+  const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale, 1.0 / page.video.height};
   for (std::size_t i = 0; i < areas.plots.size(); ++i)
     plots.emplace_back(std::move(data[i]), areas.plots[i], style);
   if (place == PlotPlace::below) return;

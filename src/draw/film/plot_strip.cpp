@@ -30,6 +30,7 @@ constexpr double kStepMark = 0.009;  // units of H, across
 constexpr double kSameEnd = 1e-6;    // of a step: its end
 constexpr double kLeastOfMoved = 0.05;  // of the energy that a motion moves: a drift of a hundredth of it is a fifth of the plot, noise of methods a line
 constexpr double kFlatOfMoved = 2e-3;   // of the same: what the line of a curve covers where the axis has that range
+constexpr double kMostDashed = 40;      // units of H: so many swings of a curve that long lie so near to one another that its dashes are not seen
 constexpr double kSameCurve = 2e-3;   // of its range, by which a curve leaves another one: half of what a line is thick
 
 bool is_of_ellipse(PlotQuantity quantity) {
@@ -148,6 +149,14 @@ void say_where_it_goes(StripCurve& curve, const Axis& y, const std::string& titl
   curve.label += (curve.label.empty() ? "to " : ", to ") + format_power(most) + unit_in(title);
 }
 
+// On the page, of what can be shown.
+double length_of(const std::vector<Point>& points, const PlotFrame& frame) {
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    if (frame.can_show(points[i]) && frame.can_show(points[i + 1])) length += norm(frame.at(points[i + 1]) - frame.at(points[i]));
+  return length;
+}
+
 // Where a curve leaves the frame for good it goes on.
 void draw_going_on(Picture& picture, const PlotFrame& frame, const StripCurve& curve, Color color) {
   constexpr double kHead = 0.018, kWidth = 0.016;  // units of H
@@ -160,13 +169,20 @@ void draw_going_on(Picture& picture, const PlotFrame& frame, const StripCurve& c
   picture.add(Polygon{{to, back + side, back - side}, 3, {color, {}, 0}});
 }
 
-// The first `count` points, and where steps end.
-void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve, std::size_t count, const Theme& theme, double opacity) {
-  const std::span points = std::span(curve.points).first(count);
-  std::vector<Point> path;
-  for (const std::size_t i : curve.shown)
-    if (i < count) path.push_back(points[i]);
-  if (count > 0 && !std::ranges::binary_search(curve.shown, count - 1)) path.push_back(points.back());
+// What of it lies before t; between two points it is where the line between them is.
+std::vector<Point> part_until(const PlotFrame& frame, const StripCurve& curve, double t) {
+  const auto next = std::upper_bound(curve.points.begin(), curve.points.end(), t, [](double now, const Point& p) { return now < p.x; });
+  std::vector<Point> part(curve.points.begin(), next);
+  if (part.empty() || next == curve.points.end() || !frame.can_show(part.back()) || !frame.can_show(*next)) return part;
+  const Point from = frame.at(part.back()), to = frame.at(*next);
+  const double way = (t - part.back().x) / (next->x - part.back().x);
+  if (way > 0) part.push_back({t, frame.data_at(from + way * (to - from)).y});
+  return part;
+}
+
+// A curve until t, and where steps end.
+void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve, double t, const Theme& theme, double opacity) {
+  const std::vector<Point> path = part_until(frame, curve, t);
   CurveStyle style = curve.style;
   // Two pale colours over one another would be a third one, of no curve.
   if (curve.covers && opacity < 1) {
@@ -175,9 +191,9 @@ void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve
   }
   style.color = curve.style.color.faded(opacity);
   draw_curve(picture, frame, path, style, theme);
-  if (count == curve.points.size()) draw_going_on(picture, frame, curve, style.color);
+  if (curve.points.empty() || t >= curve.points.back().x) draw_going_on(picture, frame, curve, style.color);
   for (const Point& p : curve.marks)
-    if (!points.empty() && p.x <= points.back().x && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
+    if (p.x <= t && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
       draw_marker(picture, frame.at(p), Marker::disc, kStepMark, style.color, theme.background);
 }
 
@@ -207,7 +223,12 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     const auto out = leaves_at(curve, frame_.y);
     if (out != curve.points.end()) curve.points.erase(out + 1, curve.points.end());
   }
-  for (StripCurve& curve : data_.curves) curve.shown = thin_points(frame_, curve.points);
+  for (StripCurve& curve : data_.curves) {
+    std::vector<Point> shown;
+    for (const std::size_t i : thin_points(frame_, curve.points, style_.pixel)) shown.push_back(curve.points[i]);
+    curve.points = std::move(shown);
+    if (curve.style.dash != Dash::even && length_of(curve.points, frame_) > kMostDashed) curve.style.dash = Dash::solid;
+  }
 }
 
 void PlotStrip::draw_static(Picture& picture) const {
@@ -216,7 +237,7 @@ void PlotStrip::draw_static(Picture& picture) const {
   draw_note(picture);
   std::vector<EndLabel> ends;
   for (const StripCurve& curve : data_.curves) {
-    draw_part(picture, frame_, curve, curve.points.size(), *style_.theme, kPale);
+    draw_part(picture, frame_, curve, HUGE_VAL, *style_.theme, kPale);
     const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [](const Point& p) { return std::isfinite(p.y); });
     if (curve.label.empty() || curve.points.empty() || (last == curve.points.rend() && !data_.has_poles)) continue;
     const Point end = last == curve.points.rend() ? Point{frame_.box.x1, frame_.box.y1} : frame_.at(*last);
@@ -238,11 +259,7 @@ void PlotStrip::draw_note(Picture& picture) const {
 }
 
 void PlotStrip::draw_frame(Picture& picture, double t) const {
-  for (const StripCurve& curve : data_.curves) {
-    const auto end = std::upper_bound(curve.points.begin(), curve.points.end(), t,
-                                      [](double now, const Point& p) { return now < p.x; });
-    draw_part(picture, frame_, curve, std::size_t(end - curve.points.begin()), *style_.theme, 1);
-  }
+  for (const StripCurve& curve : data_.curves) draw_part(picture, frame_, curve, t, *style_.theme, 1);
   draw_cursor(picture, frame_, std::clamp(t, frame_.x.low, frame_.x.high), style_.theme->ink);
 }
 

@@ -14,11 +14,10 @@ namespace chainreel {
 struct StripCurve {
   std::string label;  // at its right end; "" none
   CurveStyle style;
-  std::vector<Point> points;  // (t, y), t rising
+  std::vector<Point> points;  // (t, y), t rising; a strip keeps those without which it looks the same
   bool decides = true;        // on the range of the axis; curves of runs that went wild do not
   bool covers = false;        // it lies on one before it, which is seen through its gaps
   std::vector<Point> marks{};  // of the points, where a step of the run ends and is seen
-  std::vector<std::size_t> shown{};  // which points a strip draws: the rest lie on the lines between them
 };
 
 struct StripData {
