@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kBetweenColumns = 0.022;            // between columns, and below the titles of a row
 constexpr double kTitlePitch = 1.28;       // of the em
-constexpr double kTitleAir = 0.45;        // of the em, between a picture and its title
+constexpr double kAirOfTitle = 0.45;        // of the em, between a picture and its title
 constexpr double kAscent = 0.80;          // of the em
 constexpr double kSmallestPicture = 0.045;   // height of a picture that shows anything
 constexpr double kWidestTitle = 1.5;      // of a picture's width
@@ -86,7 +86,7 @@ Cut cut_page(int columns, int lines, const Rect& inside, const ContactSheetLook&
   const bool wide = cut.width >= kWideCell;
   cut.title_lines = std::max(wide ? 1 : 2, look.title_lines);
   cut.text_size = look.words_of(wide ? size::kAxis : kSmallestText);
-  cut.caption = (kTitleAir + cut.title_lines * kTitlePitch) * cut.text_size;
+  cut.caption = (kAirOfTitle + cut.title_lines * kTitlePitch) * cut.text_size;
   const double room = (inside.height() - (lines - 1) * kBetweenColumns) / lines - cut.caption;
   cut.height = std::min(cut.width / kCellAspect, room);
   cut.width = cut.height * kCellAspect;
@@ -208,7 +208,7 @@ Picture draw_contact_sheet(const ContactGrid& grid, std::span<const ContactCell>
     place_picture(sheet, cells[i].picture,
                   {grid.pictures[i], kThinnestLine, kScript * grid.smallest_text, size::kMargin});
     draw_frame(sheet, grid.pictures[i], *look.theme);
-    double y = title.y1 - (kTitleAir + kAscent) * grid.text_size;
+    double y = title.y1 - (kAirOfTitle + kAscent) * grid.text_size;
     for (const std::string& line :
          broken_title(cells[i].title, grid.text_size, title.width(), grid.title_lines, look)) {
       draw_text(sheet, title_line(line, grid.text_size, look), {title.x0, y});

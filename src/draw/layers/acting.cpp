@@ -33,7 +33,8 @@ constexpr int kMostTorqueLabels = 6;
 constexpr double kArcOfLink = 0.32;    // an arc's radius at most, of the shortest link
 constexpr double kSmallestArc = 0.5;   // of the size that arcs have elsewhere
 constexpr double kAlongPushed = 0.1;   // cosine of the largest angle from a force to the link that it pushes
-constexpr double kLabelledArc = 0.53;  // between smaller ones there is no room for words
+constexpr double kLinkOfWords = 1.5;    // of the height of letters: between shorter links there is no room for words
+constexpr double kKeepsName = 0.3;      // s of the film: for so long it may be small and keep its name
 constexpr double kNumberStays = 0.4;   // s of the film before and after what is cut: time to read its number
 
 // The vectors of a motion at sample k, after compute_kinematics there.
@@ -113,10 +114,12 @@ class VectorLayer : public Layer {
     const double arcs = link > 0 ? std::clamp(kArcOfLink * link / (panel.marks() * size::kTorqueArc), kSmallestArc, 1.0) : 1;
     const Asides& asides = asides_of(panel, shot.k);
     Names names;
-    for (WorldVector& vector : vectors_at_(panel.motion(), shot.ws, shot.k)) {
-      vector.size = arcs;
+    std::vector<WorldVector> vectors = vectors_at_(panel.motion(), shot.ws, shot.k);
+    for (WorldVector& vector : vectors) vector.size = arcs;
+    pen_.keep_apart(vectors, panel.camera(), panel.marks());
+    for (WorldVector& vector : vectors) {
       if (const auto one = asides.find(names.next(vector)); one != asides.end()) vector.aside = one->second[std::size_t(shot.k)];
-      if (vector.kind == VectorKind::torque && arcs < kLabelledArc) vector.label.clear();
+      if (vector.kind == VectorKind::torque && link > 0 && link < kLinkOfWords * pen_.em(panel.marks())) vector.label.clear();
       pen_.draw(picture, vector, panel.camera(), panel.marks(), panel.clip(), shot.labels);
     }
   }
@@ -259,7 +262,8 @@ class TorqueRun {
         tau_(torques_along(*motion.simulation(), motion.trajectory())),
         shown_(nv_),
         rings_(nv_),
-        numbered_(nv_, std::vector<bool>(motion.trajectory().t.size())) {
+        numbered_(nv_, std::vector<bool>(motion.trajectory().t.size())),
+        named_(numbered_) {
     const std::vector<double>& t = motion.trajectory().t;
     for (std::size_t at = 0; at < tau_.size(); ++at)
       if (std::isfinite(tau_[at]) && tau_[at] != 0) shown_[at % nv_] = true;
@@ -271,10 +275,16 @@ class TorqueRun {
     for (std::size_t at = 0; at < tau_.size(); ++at) magnitudes.push_back({std::abs(tau_[at]), lasts(t, at / nv_)});
     const double full = full_magnitude(std::move(magnitudes));
     const int number_stays = int(std::lround(kNumberStays * stage.page.video.fps.value()));
+    const int keeps_name = int(std::lround(kKeepsName * stage.page.video.fps.value()));
     for (std::size_t i = 0; i < nv_; ++i) {
       std::vector<bool> rests(t.size());
       for (std::size_t k = 0; k < t.size(); ++k) rests[k] = !(std::abs(tau_[k * nv_ + i]) >= kRestBelow * full);
       rings_[i] = rings_along(t, rests);
+      for (int k = 0, named = -1; k < int(t.size()); ++k) {
+        if (!(std::abs(tau_[std::size_t(k) * nv_ + i]) > full * kLeastNamed * kWidestTurn / kTurnOfFull)) continue;
+        for (int between = named + 1; named >= 0 && k - named <= keeps_name && between < k; ++between) named_[i][std::size_t(between)] = true;
+        named = k;
+      }
       for (int k = 0; k < int(t.size()); ++k)
         if (std::abs(tau_[std::size_t(k) * nv_ + i]) > full * kWidestTurn / kTurnOfFull)
           for (int near = std::max(0, k - number_stays); near <= std::min(k + number_stays, int(t.size()) - 1); ++near) numbered_[i][std::size_t(near)] = true;
@@ -287,6 +297,8 @@ class TorqueRun {
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
   // Whether its name has its number: where it is cut, and a while before and after, so that none is there for one frame.
   bool has_number(int freedom, int k) const { return numbered_[std::size_t(freedom)][std::size_t(k)]; }
+  // Whether it is too small for a name, but only for a moment.
+  bool keeps_name(int freedom, int k) const { return named_[std::size_t(freedom)][std::size_t(k)]; }
   bool is_labelled() const { return labelled_; }
   std::string word(int freedom) const { return nv_ == 1 ? "tau" : "tau_{" + std::to_string(freedom + 1) + "}"; }
 
@@ -295,7 +307,7 @@ class TorqueRun {
   std::vector<double> tau_;                 // nv a sample
   std::vector<bool> shown_;                 // a freedom
   std::vector<std::vector<double>> rings_;  // a freedom, a sample
-  std::vector<std::vector<bool>> numbered_;  // ... the same
+  std::vector<std::vector<bool>> numbered_, named_;  // ... the same
   bool labelled_ = true;
 };
 
@@ -322,7 +334,7 @@ std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, con
     const Vector3d axis = X_WB.linear() * joint.axis;
     if (joint.kind == JointKind::revolute)
       vectors.push_back({VectorKind::torque, place, *own * axis, axis, Vector3d::Zero(), label,
-                         run.ring(joint.v_index, k), run.has_number(joint.v_index, k)});
+                         run.ring(joint.v_index, k), run.has_number(joint.v_index, k), run.keeps_name(joint.v_index, k)});
     else
       vectors.push_back({VectorKind::joint_force, place, *own * axis, Vector3d::Zero(), axis, label});
   }

@@ -80,12 +80,12 @@ class Angles : public Layer {
  private:
   Color color() const { return stage_->theme.ink; }
 
-  void add_label(const Shot& shot, const Joint& joint, Point near, Point away) const {
+  void add_label(const Shot& shot, const Joint& joint, Point near, Point away, Point anchor) const {
     const double em = scaled(std::max(size::kAxis * std::sqrt(shot.panel.marks()), kSmallestText), stage_->page.text_scale);
     TextLine text = lay_out_math(stage_->fonts, "q_{" + std::to_string(joint.v_index + 1) + "}",
                                  {Face::math, em, color(), Align::left});
     const Rect box = place_beyond(text, near, kAngleGap, away);
-    shot.labels.add("angle " + std::to_string(joint.v_index + 1), std::move(text), box);
+    shot.labels.add("angle " + std::to_string(joint.v_index + 1), std::move(text), box, anchor);
   }
 
   void draw_head(Picture& picture, Point tip, Point along, double size, int clip) const {
@@ -109,7 +109,7 @@ class Angles : public Layer {
     if (norm(tip - base) > 1e-6) draw_head(picture, tip, unit(tip - base), marks * grown, clip);
     const double middle = std::abs(angle) < kSmallestAngle ? 0 : angle / 2;
     const Point near = turn.at(radius, middle);
-    add_label(shot, joint, near, unit(near - turn.center));
+    add_label(shot, joint, near, unit(near - turn.center), turn.center);
   }
 
   // Beside the rail, from the carriage's zero on.
@@ -133,7 +133,7 @@ class Angles : public Layer {
       draw_line(picture, {a, b - 0.8 * head * along}, kAngleLine, color(), clip);
       draw_head(picture, b, along, head / kAngleHead, clip);
     }
-    add_label(shot, joint, 0.5 * (a + b), side);
+    add_label(shot, joint, 0.5 * (a + b), side, 0.5 * (a + b));
   }
 
   const Stage* stage_;

@@ -420,6 +420,7 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
     for (const Point tip : {center + v, center - v})
       picture.add(Ellipse{tip, {kTipDot, 0}, {0, kTipDot}, {style.theme->ellipse, style.theme->background, kTipRim}}, clip);
   MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
+  word.anchor = center;  // its ends may change sides
   if (strength > 0 && has_one_place(style))
     for (const double side : {1.0, -1.0})
       for (const Rect& place : boxes_beside_edge(word.line, center, side * unit(v), half_width, style.scene)) word.places.push_back(place);

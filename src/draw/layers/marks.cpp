@@ -110,7 +110,9 @@ void FrameAxes::draw_axis(Picture& picture, const Panel& panel, Point origin, Po
     }
   }
   const TextLine& letter = letters_[std::size_t(axis)];
-  labels.add({"axis " + std::to_string(3 * frame + axis), letter, places_about(letter, tip, kLetterGap, along)});
+  MarkWord word{"axis " + std::to_string(3 * frame + axis), letter, places_about(letter, tip, kLetterGap, along)};
+  word.anchor = tip;
+  labels.add(std::move(word));
 }
 
 void FrameAxes::draw(Picture& picture, const Shot& shot) const {

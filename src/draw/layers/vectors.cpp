@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/format.hpp"
+#include "draw/layers/arcs_apart.hpp"
 #include "draw/page/arrow.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/robot/joints.hpp"
@@ -15,7 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastNamed = 0.08;       // of the widest turn that arcs have: arcs of less lie on the disc of their joint, and have no name
 constexpr double kBesideTurn = 50;         // degrees beyond the ends of an arc within which its name stands
 constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc and its label, units of H
 constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer
@@ -25,6 +25,7 @@ constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
+constexpr double kNearestName = 0.65;     // of an arc's whole radius: where it changes its sense its name stays, rather than run in and out
 constexpr double kClearOfJoint = 0.020;   // units of H: arcs of twice that have an edge, those within it none
 constexpr double kLegendArc = 1.3;        // of the arc that most of a film's are smaller than: that of the legend at most
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
@@ -207,8 +208,7 @@ const TextLine& VectorPen::label(const WorldVector& vector, double marks, bool i
   const auto key = std::tuple{vector.kind, words, marks};
   const auto known = labels_.find(key);
   if (known != labels_.end()) return known->second;
-  const TextStyle style{Face::math, scaled(std::max(size::kSymbol * std::sqrt(marks), kSmallestText), text_scale_),
-                        color_of(vector.kind, *theme_), Align::left};
+  const TextStyle style{Face::math, em(marks), color_of(vector.kind, *theme_), Align::left};
   return labels_.emplace(key, lay_out_math(*fonts_, words, style)).first->second;
 }
 
@@ -271,20 +271,40 @@ void VectorPen::add_to(FitBox& box, const WorldVector& vector, const Camera& cam
   }
 }
 
+double VectorPen::radius_of(const WorldVector& vector, double marks) {
+  return vector.size * marks * size::kTorqueArc;
+}
+
+double VectorPen::grown(const WorldVector& vector) const {
+  return std::min(1.0, scales_.of(vector.kind).on_page(std::abs(vector.value.dot(vector.axis))) / (kWholeRadius * std::numbers::pi / 180));
+}
+
+void VectorPen::keep_apart(std::vector<WorldVector>& vectors, const Camera& camera, double marks) const {
+  std::vector<std::size_t> torques;
+  std::vector<TorqueArc> arcs;
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    if (vectors[i].kind != VectorKind::torque) continue;
+    torques.push_back(i);
+    arcs.push_back({camera.project(vectors[i].place), grown(vectors[i]) * radius_of(vectors[i], marks)});
+  }
+  const std::vector<double> sizes = arcs_apart(arcs, marks);
+  for (std::size_t i = 0; i < torques.size(); ++i) vectors[torques[i]].size *= sizes[i];
+}
+
 void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks,
                             int clip, MarkLabels& labels) const {
   const Point center = camera.project(vector.place);
-  const double radius = vector.size * marks * size::kTorqueArc;
+  const double radius = radius_of(vector, marks);
   const Camera seen = camera.seen_at(vector.place);
   const Circle circle = circle_about(vector.axis, seen);
   const Point u = radius * on_page(circle.top, seen), w = radius * on_page(circle.quarter, seen);
   const VectorScale scale = scales_.of(vector.kind);
   const double value = vector.value.dot(vector.axis);
   ArrowStyle style{color_of(vector.kind, *theme_), marks * std::sqrt(vector.size), false, 0, theme_->lines, theme_->background};
-  const double widest = kWidestTurn * std::numbers::pi / 180, whole = kWholeRadius * std::numbers::pi / 180;
+  const double widest = kWidestTurn * std::numbers::pi / 180;
   const double wished = scale.on_page(std::abs(value)), turn = std::min(wished, widest);
   style.broken = broken(wished, widest);
-  const double grown = std::min(1.0, turn / whole);
+  const double grown = this->grown(vector);
   // What sets an arc off from links would bite into the disc of its joint.
   style.casing = theme_->background.faded(std::clamp(grown * radius / (marks * kClearOfJoint) - 1, 0.0, 1.0));
   draw_turn(picture, center, grown * u, grown * w, value > 0 ? turn : -turn, style, clip);
@@ -295,16 +315,17 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double dot = style.size * kTorqueDot;
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
   // A word beside a dot is the name of nothing.
-  if (vector.label.empty() || !(turn > kLeastNamed * widest)) return;
+  if (vector.label.empty() || !(turn > kLeastNamed * widest || vector.keeps_name)) return;
   const TextLine& text = label(vector, marks, style.broken > 0 || vector.has_number);
   const double half_head = marks * size::kArrowHeadWidth / 2;
-  const double off = std::max(grown * radius, kLeastLabelled * marks) + half_head + kVectorLabelGap;
+  const double off = std::max({grown * radius, kNearestName * radius, kLeastLabelled * marks}) + half_head + kVectorLabelGap;
   MarkWord word{word_name(vector), text, {}, std::nullopt, Tie{center, grown * radius + half_head, style.color}};
   for (const double far : {0.0, kFarLabelGap, 2.2 * kFarLabelGap})
     for (const Rect& place : places_about(text, center, off + far, {0, 1})) {
       word.places.push_back(place);
       word.closed.push_back(!is_beside_turn(center_of(place) - center, u, w, turn));
     }
+  word.anchor = center;
   labels.add(std::move(word));
 }
 
@@ -341,7 +362,9 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const bool has_number = vector.kind == VectorKind::push || (is_small && vector.kind == VectorKind::weight);
   if (vector.label.empty() || (is_small && !has_number)) return;
   const TextLine& text = label(vector, marks, arrow.broken > 0 || is_small);
-  labels.add({word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)});
+  MarkWord word{word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)};
+  word.anchor = tail + arrow.v;
+  labels.add(std::move(word));
 }
 
 }  // namespace chainreel

@@ -4,7 +4,9 @@
 // scene: the camera holds them at kLeastArrows of these lengths, and they are as long as what it then shows has room for.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <tuple>
@@ -35,6 +37,7 @@ struct WorldVector {
   std::string label{};                              // a symbol in math notation
   double ring = 0;  // of a torque: opacity of the ring which says that it rests
   bool has_number = false;  // of a torque: its name says its size, as where its arc is cut
+  bool keeps_name = false;  // ... it is small for a moment only, as where it changes its sense, and does not lose its name for that
   double size = 1;  // of a torque's arc: less where links are short on the page
   bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
   double aside = 0;     // units of H, to the left of its own way: it stands beside what it would hide, and a line ties it to its place
@@ -54,6 +57,8 @@ struct VectorScales {
   VectorScale of(VectorKind kind) const;
 };
 inline constexpr double kTurnOfFull = 240, kWidestTurn = 300;  // degrees
+// Of the widest turn that arcs have: arcs of less lie on the disc of their joint, and have no name.
+inline constexpr double kLeastNamed = 0.08;
 // Of their lengths, for which the camera makes room.
 inline constexpr double kLeastArrows = 0.5;
 // Below this fraction of the full one a torque rests.
@@ -105,11 +110,18 @@ class VectorPen {
   Rect extent(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
   // From its tail to its tip; of a force or a velocity.
   PageLine line_of(const WorldVector& vector, const Camera& camera, double marks) const;
+  // Arcs of torques whose joints come close to one another get other sizes (draw/layers/arcs_apart).
+  void keep_apart(std::vector<WorldVector>& vectors, const Camera& camera, double marks) const;
+  // The height of their names' letters, units of H.
+  double em(double marks) const { return scaled(std::max(size::kSymbol * std::sqrt(marks), kSmallestText), text_scale_); }
   // Its label goes to `labels`, which are drawn over all vectors.
   void draw(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
             MarkLabels& labels) const;
 
  private:
+  // Of the arc of a torque; it is smaller by `grown` where it turns by little.
+  static double radius_of(const WorldVector& vector, double marks);
+  double grown(const WorldVector& vector) const;
   struct Straight {
     Point shift, v;  // of the tail from the place; units of H
     double broken = 0;

@@ -179,11 +179,12 @@ void MarkLabels::add(MarkWord word) {
   words_.push_back(std::move(word));
 }
 
-void MarkLabels::add(const std::string& name, TextLine line, const Rect& box) {
+void MarkLabels::add(const std::string& name, TextLine line, const Rect& box, std::optional<Point> anchor) {
   std::vector<Rect> places{box};
   for (const Point way : {Point{0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}})
     places.push_back(moved(box, {way.x * (box.width() + kBetweenLabels), way.y * (box.height() + kBetweenLabels)}));
   words_.push_back({name, std::move(line), std::move(places)});
+  words_.back().anchor = anchor;
 }
 
 void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int clip, double farthest) const {
@@ -192,10 +193,11 @@ void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int 
     std::vector<Rect> wishes;
     for (const MarkWord& word : words_) wishes.push_back(word.places.front());
     for (const PlacedBox& placed : boxes_apart(wishes, area, kBetweenLabels, farthest))
-      standing.push_back({placed.box, placed.stands ? 1.0 : 0.0});
+      standing.push_back({placed.box, placed.stands ? 1.0 : 0.0, {}});
   }
   for (std::size_t i = 0; i < words_.size(); ++i) {
-    const auto& [box, opacity] = standing[i];
+    const Rect& box = standing[i].box;
+    const double opacity = standing[i].opacity;
     if (!(opacity > 0)) continue;
     TextLine line = words_[i].shape_for(box);
     fade(line, opacity);

@@ -44,6 +44,7 @@ struct MarkWord {
   std::optional<Tie> tie = std::nullopt;
   std::vector<TextLine> other_shapes{};  // the same words on more lines: for the places of their size
   std::vector<bool> closed{};            // of the places: not to be had at this frame, but they keep their numbers; empty: none
+  std::optional<Point> anchor{};         // what it rides along with, as an arrow's tip; none: its mark does not move
 
   // What stands in such a box.
   const TextLine& shape_for(const Rect& box) const;
@@ -62,6 +63,7 @@ Rect moved_into(const Rect& area, const Rect& r);
 struct StandingWord {
   Rect box;
   double opacity = 1;  // 0: it is left out
+  std::optional<Point> anchor{};  // as of its MarkWord
 };
 
 class MarkLabels {
@@ -72,7 +74,7 @@ class MarkLabels {
 
   void add(MarkWord word);
   // `box`: where the ink of the line is wished; places around it will do.
-  void add(const std::string& name, TextLine line, const Rect& box);
+  void add(const std::string& name, TextLine line, const Rect& box, std::optional<Point> anchor = {});
   const std::vector<MarkWord>& words() const { return words_; }
 
   // With a halo of the background's colour. Without a plan inside `area`: labels that are wished outside of it are left

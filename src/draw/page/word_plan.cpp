@@ -19,7 +19,8 @@ constexpr double kLeavesWith = 0.03;    // units of H: a place that sticks out o
 constexpr std::size_t kCrowdOfWords = 60;      // words: of more each has its best place or none
 // What it costs: a second without the word, on what may yield, at a place for each one before it in the list; and a
 // change of places.
-constexpr double kHidden = 9, kPoorGround = 2.7, kWorsePlace = 0.12, kChange = 1.2;
+constexpr double kHidden = 9, kPoorGround = 4, kWorsePlace = 0.12, kChange = 1.2;
+constexpr double kStandsLonger = 0.5;  // s, for which the first and the last frame of a film count more: as posters and when it is over
 constexpr double kWorseOfMany = 0.005;  // the same of a place of words with a leader, which have many
 constexpr double kCrossedByLeader = 0.3;  // the same for each piece of what is drawn that its line crosses
 constexpr double kEndOfLeader = 0.03;  // units of H: what lies so near to its end is what it leads to
@@ -107,10 +108,6 @@ bool reaches(const Rect& one, const Rect& room) {
   return one.x1 >= room.x0 && one.x0 <= room.x1 && one.y1 >= room.y0 && one.y0 <= room.y1;
 }
 
-bool moves_on(const Rect& before, const Rect& now) {
-  return norm(center_of(now) - center_of(before)) <= kWordStep;
-}
-
 // What a line from a word crosses, or runs along.
 double cost_of_line(Point from, Point to, const std::vector<Blocked>& near) {
   int crossed = 0;
@@ -169,6 +166,14 @@ constexpr int kNowhere = -1;
 
 }  // namespace
 
+bool moves_on(const StandingWord& before, const StandingWord& now) {
+  const Point way = center_of(now.box) - center_of(before.box);
+  if (norm(way) <= kWordStep) return true;
+  if (!before.anchor || !now.anchor) return false;
+  const Point ride = *now.anchor - *before.anchor;
+  return norm(ride) <= kAnchorStep && norm(way - ride) <= kWordStep;
+}
+
 std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield) {
   std::vector<Obstacle> found;
   for (const Item& item : picture.items) std::visit(ShapeObstacles{&found}, item.shape);
@@ -201,7 +206,8 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
   for (const Obstacle& one : obstacles) all.push_back({room_of(one), one});
   const std::size_t most = words.size() > kCrowdOfWords ? 1 : std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < words.size(); ++i) {
-    Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}};
+    Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}, words[i].anchor, {}};
+    if (!now.insists) now.tie = words[i].tie;
     find_near(words[i], area_, all, near);
     for (const Rect& wish : words[i].places) {
       if (now.places.size() == most) break;
@@ -212,7 +218,7 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
       now.places.push_back(box);
       now.grounds.push_back(ground);
       if (words[i].leader) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_leader(*words[i].leader, box, near));
-      if (words[i].tie && !words[i].leader) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_tie(*words[i].tie, box, near));
+      if (now.tie) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_tie(*now.tie, box, near));
     }
     track_of(words[i], frame).push_back(std::move(now));
   }
@@ -220,53 +226,63 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
 
 namespace {
 
+// What it costs to stand at a place up to a moment.
+struct Stay {
+  int frames = 0;  // for how long it has been to be had there
+  double along = 0;  // what these cost
+  double least = std::numeric_limits<double>::infinity();  // of all ways that end there
+  int begins = 0;  // of that way: it has come there so many frames ago; 0: it was there before
+};
+// The way of least cost through the moments before one, and where it ends.
+struct Before {
+  double cost = 0;
+  int place = kNowhere;
+};
+
+// Whether a word that stands at a place at moment m has stood there at the one before.
+template <class Track>
+bool goes_on(const Track& track, std::size_t m, int place) {
+  return m > 0 && track[m - 1].frame + 1 == track[m].frame && place < int(track[m - 1].places.size()) &&
+         moves_on(track[m - 1].at(place), track[m].at(place));
+}
+
 // The places of one word from frame to frame, kNowhere where it is left out: the way of least cost through all that are
-// free, by dynamic programming. `cost_of`: of a second there, infinite where the place is taken.
-template <class Track, class Cost>
-std::vector<int> best_way(const Track& track, double fps, Cost cost_of) {
-  const double never = std::numeric_limits<double>::infinity();
-  struct State {
-    double cost = 0;
-    int before = kNowhere;
-  };
-  std::vector<std::vector<State>> states(track.size());  // the last one of each: left out
+// free, by dynamic programming, with stays of `shortest` frames at least but at the first and the last of all `frames`, which stand
+// longer than the others. `cost_of`: of being there for a moment, infinite where the place is taken; `hidden`: of being nowhere.
+template <class Track, class Cost, class Hidden>
+std::vector<int> best_way(const Track& track, int frames, int shortest, Cost cost_of, Hidden hidden) {
+  std::vector<std::vector<Stay>> stays(track.size());
+  std::vector<Before> before(track.size() + 1);  // with half the change of places, if it ends at one
+  Before last;
   for (std::size_t m = 0; m < track.size(); ++m) {
-    const auto& now = track[m];
-    const int places = int(now.places.size());
-    states[m].resize(std::size_t(places) + 1);
-    const bool goes_on = m > 0 && track[m - 1].frame + 1 == now.frame;
-    // The best of the frame before, from where any place is taken with a change.
-    int best = kNowhere;
-    double least = 0;
-    if (m > 0) {
-      least = states[m - 1].back().cost;
-      for (int p = 0; p + 1 < int(states[m - 1].size()); ++p) {
-        const double cost = states[m - 1][std::size_t(p)].cost + kChange / 2;
-        if (cost < least) least = cost, best = p;
-      }
-    }
-    for (int p = 0; p < places; ++p) {
-      State& state = states[m][std::size_t(p)];
-      state = {never, kNowhere};
+    stays[m].resize(track[m].places.size());
+    last = {before[m].cost + hidden(m), kNowhere};
+    before[m + 1] = last;
+    for (int p = 0; p < int(stays[m].size()); ++p) {
+      Stay& stay = stays[m][std::size_t(p)];
       const double cost = cost_of(m, p);
-      if (cost == never) continue;
-      state = {least + kChange / 2, best};
-      if (goes_on && p + 1 < int(states[m - 1].size()) &&
-          moves_on(track[m - 1].places[std::size_t(p)], now.places[std::size_t(p)]) &&
-          states[m - 1][std::size_t(p)].cost <= state.cost)
-        state = {states[m - 1][std::size_t(p)].cost, p};
-      state.cost += cost / fps;
+      if (!std::isfinite(cost)) continue;
+      const Stay earlier = goes_on(track, m, p) ? stays[m - 1][std::size_t(p)] : Stay{};
+      stay.frames = earlier.frames + 1;
+      stay.along = earlier.along + cost;
+      const int from = track[m].frame == 0 || track[m].frame == frames - 1 ? 1 : shortest;
+      for (int ago = from; ago <= std::min(shortest, stay.frames); ++ago) {
+        const std::size_t begin = m + 1 - std::size_t(ago);
+        const double passed = stay.frames > ago ? stays[begin - 1][std::size_t(p)].along : 0;
+        const double least = before[begin].cost + kChange / 2 + stay.along - passed;
+        if (least < stay.least) stay.least = least, stay.begins = ago;
+      }
+      if (earlier.least + cost <= stay.least) stay.least = earlier.least + cost, stay.begins = 0;
+      if (stay.least < last.cost) last = {stay.least, p};
+      if (stay.least + kChange / 2 < before[m + 1].cost) before[m + 1] = {stay.least + kChange / 2, p};
     }
-    states[m].back() = {least + kHidden / fps, best};
   }
   std::vector<int> way(track.size());
-  int place = kNowhere;
-  double least = states.back().back().cost;
-  for (int p = 0; p + 1 < int(states.back().size()); ++p)
-    if (states.back()[std::size_t(p)].cost < least) least = states.back()[std::size_t(p)].cost, place = p;
-  for (std::size_t m = track.size(); m-- > 0;) {
-    way[m] = place;
-    place = place == kNowhere ? states[m].back().before : states[m][std::size_t(place)].before;
+  int place = last.place;
+  for (std::size_t m = track.size(); m > 0;) {
+    const int begins = place == kNowhere ? 1 : stays[m - 1][std::size_t(place)].begins;
+    for (int ago = std::max(1, begins); ago > 0; --ago) way[--m] = place;
+    if (begins > 0) place = before[m].place;
   }
   return way;
 }
@@ -275,13 +291,9 @@ std::vector<int> best_way(const Track& track, double fps, Cost cost_of) {
 template <class Track>
 std::vector<double> opacities(const Track& track, const std::vector<int>& way, double fps, int frames) {
   const int fade = std::max(1, int(std::lround(kFadeSeconds * fps)));
-  const auto goes_on = [&](std::size_t m) {  // from the frame before
-    return m > 0 && way[m] != kNowhere && way[m - 1] == way[m] && track[m - 1].frame + 1 == track[m].frame &&
-           moves_on(track[m - 1].places[std::size_t(way[m - 1])], track[m].places[std::size_t(way[m])]);
-  };
   std::vector<double> strength(track.size(), 0);
   for (std::size_t begin = 0, end = 1; begin < track.size(); begin = end, ++end) {
-    while (end < track.size() && goes_on(end)) ++end;
+    while (end < track.size() && way[end] == way[begin] && way[end] != kNowhere && goes_on(track, end, way[end])) ++end;
     if (way[begin] == kNowhere) continue;
     const bool opens = track[begin].frame == 0, closes = track[end - 1].frame == frames - 1;
     for (std::size_t m = begin; m < end; ++m) {
@@ -295,34 +307,68 @@ std::vector<double> opacities(const Track& track, const std::vector<int>& way, d
 
 }  // namespace
 
+namespace {
+
+// A word that has its place, and the line that leads there.
+struct Placed {
+  StandingWord word;
+  std::optional<TieLine> line;
+};
+
+bool crosses(const std::optional<TieLine>& line, const Rect& box) {
+  if (!line) return false;
+  Point from = line->from, to = line->to;
+  return cut_segment(box, from, to);
+}
+
+// Whether one hides the other, or is struck by its line.
+bool meets(const Placed& other, const Rect& box, const std::optional<TieLine>& line, double between) {
+  if (!(other.word.opacity > 0)) return false;
+  const Rect wide = widened(box, between);
+  return overlap(wide, other.word.box) || crosses(other.line, wide) || crosses(line, widened(other.word.box, between));
+}
+
+}  // namespace
+
 std::vector<std::vector<StandingWord>> WordPlan::standing() const {
   const int frames = int(counts_.size());
-  std::vector<std::vector<StandingWord>> words(counts_.size());
-  for (std::size_t k = 0; k < counts_.size(); ++k) words[k].resize(std::size_t(counts_[k]), {{}, 0});
+  const int shortest = std::clamp(int(std::lround(kShortestStay * fps_)), 1, std::max(1, frames));
+  std::vector<std::vector<Placed>> placed(counts_.size());
+  for (std::size_t k = 0; k < counts_.size(); ++k) placed[k].resize(std::size_t(counts_[k]), {{{}, 0, {}}, {}});
   for (int round = 0; round < kPlanRounds; ++round)
     // What is drawn above others has words first: vectors before the letters of axes.
     for (const Track& track : std::views::reverse(tracks_)) {
-      for (const Moment& now : track) words[std::size_t(now.frame)][std::size_t(now.index)].opacity = 0;
+      for (const Moment& now : track) placed[std::size_t(now.frame)][std::size_t(now.index)].word.opacity = 0;
+      // How long a frame is looked at, s.
+      const auto stands = [&](std::size_t m) {
+        const bool is_end = track[m].frame == 0 || track[m].frame == frames - 1;
+        return 1 / fps_ + (is_end && frames > 1 ? kStandsLonger : 0);
+      };
       const auto cost_of = [&](std::size_t m, int p) {
         const Moment& now = track[m];
         const double never = std::numeric_limits<double>::infinity();
         const Ground ground = now.grounds[std::size_t(p)];
         if (ground == Ground::taken) return never;
-        const Rect box = widened(now.places[std::size_t(p)], between_);
-        const bool meets = std::any_of(words[std::size_t(now.frame)].begin(), words[std::size_t(now.frame)].end(),
-                            [&](const StandingWord& other) { return other.opacity > 0 && overlap(box, other.box); });
-        const double poor = ground == Ground::poor ? kPoorGround : 0;
-        if (now.insists) return p * kWorseOfMany + now.leaders[std::size_t(p)] + poor + (meets ? kPoorGround : 0);
+        const std::optional<TieLine> tie = now.line_at(p);
+        const bool is_met = std::ranges::any_of(placed[std::size_t(now.frame)], [&](const Placed& other) {
+          return meets(other, now.places[std::size_t(p)], tie, between_);
+        });
+        const double poor = ground == Ground::poor ? kPoorGround * stands(m) : 0;
+        if (now.insists) return (p * kWorseOfMany + now.leaders[std::size_t(p)]) / fps_ + poor + (is_met ? kPoorGround * stands(m) : 0);
         const double line = now.leaders.empty() ? 0 : now.leaders[std::size_t(p)];
-        return meets ? never : p * kWorsePlace + line + poor;
+        return is_met ? never : (p * kWorsePlace + line) / fps_ + poor;
       };
-      const std::vector<int> way = best_way(track, fps_, cost_of);
+      const std::vector<int> way = best_way(track, frames, track.front().insists ? 1 : shortest, cost_of, [&](std::size_t m) { return kHidden * stands(m); });
       const std::vector<double> strength = opacities(track, way, fps_, frames);
       for (std::size_t m = 0; m < track.size(); ++m)
         if (way[m] != kNowhere)
-          words[std::size_t(track[m].frame)][std::size_t(track[m].index)] = {
-              track[m].places[std::size_t(way[m])], strength[m]};
+          placed[std::size_t(track[m].frame)][std::size_t(track[m].index)] = {track[m].at(way[m], strength[m]), track[m].line_at(way[m])};
     }
+  std::vector<std::vector<StandingWord>> words;
+  for (const std::vector<Placed>& frame : placed) {
+    words.emplace_back();
+    for (const Placed& one : frame) words.back().push_back(one.word);
+  }
   return words;
 }
 

@@ -1,7 +1,7 @@
 // Where the words of marks stand over a whole film. Each word has several places at each frame; it keeps off what is
 // drawn and off other words, stays at one of its places as long as that is free, and fades where it goes to another one
-// or where it would run faster than can be read. That is decided over all frames at once, so that any frame can be drawn
-// alone.
+// or where it would run faster than can be read. What rides along with its mark does not run: it stays where it is about that.
+// It is decided over all frames at once, so that any frame can be drawn alone.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,12 @@ struct Obstacle {
 // Lines, discs, edges and letters of what is drawn, units of H; what is too pale to disturb, halos and bodies in space are none.
 std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield = false);
 
-// From one frame to the next no word moves farther, units of H, but where it fades.
-inline constexpr double kWordStep = 0.02;
+// From one frame to the next no word moves farther, units of H, but where it fades: on the page, or about its anchor while that
+// moves no farther than an eye can follow.
+inline constexpr double kWordStep = 0.02, kAnchorStep = 0.1;
+bool moves_on(const StandingWord& before, const StandingWord& now);
+// A word that is there for less cannot be read: a glance takes a quarter of a second. The first and the last frame of a film stand longer.
+inline constexpr double kShortestStay = 0.3;  // s
 // The rate of frames of a picture by itself, which is looked at for so long that any word is worth its place.
 inline constexpr double kLooksPerSecond = 0.1;
 inline constexpr double kBetweenWords = 0.006;
@@ -49,6 +53,11 @@ class WordPlan {
     std::vector<Ground> grounds;
     bool insists = false;         // rather on anything than nowhere
     std::vector<double> leaders;  // of words with a line: what that from each place costs
+    std::optional<Point> anchor;
+    std::optional<Tie> tie;
+
+    std::optional<TieLine> line_at(int place) const { return tie ? line_of(*tie, places[std::size_t(place)]) : std::nullopt; }
+    StandingWord at(int place, double opacity = 1) const { return {places[std::size_t(place)], opacity, anchor}; }
   };
   // One word from frame to frame.
   using Track = std::vector<Moment>;

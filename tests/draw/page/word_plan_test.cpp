@@ -142,6 +142,55 @@ TEST(WordPlan, IsSilentWhileItsMarkRunsFasterThanCanBeRead) {
   EXPECT_EQ(frames[70][0].opacity, 1);
 }
 
+// The same run is none for a word that rides along with its mark, as long as an eye can follow that.
+TEST(WordPlan, RidesAlongWithItsMark) {
+  for (const double step : {0.05, 0.11}) {
+    WordPlan plan({0, 0, 3, 1}, kPlanFps);
+    double x = 0.1;
+    for (int k = 0; k < 90; ++k) {
+      x += k >= 30 && k < 40 ? step : 0.002;
+      MarkWord word = word_at("v", {{x, 0.5}});
+      word.anchor = Point{x - 0.04, 0.5};
+      plan.add({word}, {});
+    }
+    const auto frames = plan.standing();
+    for (std::size_t k = 31; k < 39; ++k) EXPECT_EQ(frames[k][0].opacity, step < kAnchorStep ? 1 : 0) << k;
+  }
+  // It may not run about its anchor.
+  WordPlan plan(kPlanArea, kPlanFps);
+  for (int k = 0; k < 90; ++k) {
+    MarkWord word = word_at("v", {{k < 45 ? 0.3 : 0.4, 0.5}});
+    word.anchor = Point{0.35, 0.5};
+    plan.add({word}, {});
+  }
+  EXPECT_LT(plan.standing()[45][0].opacity, 0.5);
+}
+
+// What is free for less than 0.3 s is no place, but at the first frame and the last one, which stand longer.
+TEST(WordPlan, DoesNotFlicker) {
+  const auto shown = [](int from, int to) {
+    WordPlan plan(kPlanArea, kPlanFps);
+    for (int k = 0; k < 120; ++k) plan.add({word_at("v", {{0.5, 0.5}})}, {bar(k >= from && k < to ? 0.9 : 0.5)});
+    int frames = 0;
+    for (const auto& words : plan.standing()) frames += words[0].opacity > 0;
+    return frames;
+  };
+  EXPECT_EQ(shown(50, 67), 0);
+  EXPECT_EQ(shown(50, 68), 18);
+  EXPECT_EQ(shown(0, 10), 10);
+  EXPECT_EQ(shown(110, 120), 10);
+}
+
+TEST(WordPlan, LinesOfWordsKeepOffOtherWords) {
+  for (const bool has_line : {true, false}) {
+    MarkWord far = word_at("far", {{0.8, 0.5}});
+    if (has_line) far.tie = Tie{{0.1, 0.5}, 0, {}};
+    WordPlan plan(kPlanArea, kPlanFps);
+    for (int k = 0; k < 30; ++k) plan.add({word_at("near", {{0.4, 0.5}, {0.4, 0.8}}), far}, {});
+    EXPECT_NEAR(center_of(plan.standing()[15][0].box).y, has_line ? 0.8 : 0.5, 1e-12);
+  }
+}
+
 TEST(WordPlan, StandsOnWhatMayYieldWhereNothingElseIsFree) {
   Obstacle rail = bar(0.5);
   rail.may_yield = true;
