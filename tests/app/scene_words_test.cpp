@@ -113,7 +113,7 @@ TEST_P(WordsOfEveryScene, LieOnNothingAndDoNotJump) {
       ++counts.frames;
       if (words.empty()) continue;
       count(counts, drawn_on(film.frame(k), light_theme(), panel), words,
-            k > 0 ? film.words(panel, k - 1) : std::span<const StandingWord>());
+            k > 0 ? film.words(panel, k - 1) : std::vector<StandingWord>());
     }
   std::printf("%-20s %4d frames %5d words: on words %d, on arrows %d, on links %d, jumps %d, left out %d\n",
               GetParam().c_str(), counts.frames, counts.words, counts.on_words, counts.on_arrows, counts.on_links,

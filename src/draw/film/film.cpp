@@ -107,6 +107,11 @@ Picture Film::static_layer() const {
   return picture;
 }
 
+std::vector<StandingWord> Film::words(int i, int k) const {
+  const auto guard = alone();
+  return words_.standing(*stage_, layers_, view_, panels_, std::size_t(i), k);
+}
+
 void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) const {
   const Panel& panel = panels_[i];
   const int shown = std::clamp(k, 0, panel.last());
@@ -117,7 +122,7 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) con
     return;
   }
   const std::vector<StandingWord> of_still = is_still ? words_.still(*stage_, layers_, sheet_, view_, panels_, i, shown) : std::vector<StandingWord>{};
-  MarkLabels labels(is_still ? std::span<const StandingWord>(of_still) : words_.at(i, shown));
+  MarkLabels labels = is_still ? MarkLabels(of_still) : words_.labels(i, shown);
   for (std::size_t l = 0; l < layers_.size(); ++l)
     if (layers_[l]->is_of(panel.motion()))
       layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels, is_still});

@@ -45,7 +45,7 @@ class Film {
   // Layers that the scene draws and that a page this small has no room for.
   const std::vector<std::string>& left_out() const { return left_out_; }
   // Where the words of a panel's marks stand at its frame k.
-  std::span<const StandingWord> words(int i, int k) const { return words_.at(std::size_t(i), k); }
+  std::vector<StandingWord> words(int i, int k) const;
 
  private:
   Picture page() const;

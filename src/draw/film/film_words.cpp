@@ -90,28 +90,52 @@ FilmWords::FilmWords(const Stage& stage, const Layers& layers, const FilmSheet& 
   if (std::none_of(layers.begin(), layers.end(), [](const auto& layer) { return layer->has_words(); })) return;
   const Gatherer gatherer(layers, view, panels);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    WordPlan plan(area_of_words(stage, panels[i]), stage.page.video.fps.value());
+    const Rect area = area_of_words(stage, panels[i]);
+    WordPlan plan(area, stage.page.video.fps.value());
     const std::vector<Obstacle> always = gatherer.once(i, view.shared_page(stage, sheet));
     for (int k = 0; k <= panels[i].last() && !panels[i].motion().is_outlined(); ++k) {
       std::vector<Obstacle> obstacles = always;
       const MarkLabels labels = gatherer.gather(i, k, stage, obstacles);
       plan.add(labels.words(), obstacles);
     }
-    panels_.push_back(plan.standing());
+    panels_.push_back({area, plan.planned()});
   }
+}
+
+MarkLabels FilmWords::labels(std::size_t panel, int frame) const {
+  if (panels_.empty() || panels_[panel].words.empty()) return {};
+  return MarkLabels(panels_[panel].words.at(frame), panels_[panel].area);
+}
+
+namespace {
+
+std::vector<StandingWord> standing_in(const Rect& area, std::span<const ChosenPlace> chosen, const std::vector<MarkWord>& words) {
+  std::vector<StandingWord> standing;
+  for (std::size_t i = 0; i < std::min(words.size(), chosen.size()); ++i) standing.push_back(standing_at(words[i], chosen[i], area));
+  return standing;
+}
+
+}  // namespace
+
+std::vector<StandingWord> FilmWords::standing(const Stage& stage, const Layers& layers, const FilmView& view, const std::vector<Panel>& panels,
+                                              std::size_t panel, int frame) const {
+  if (panels_.empty() || panels_[panel].words.empty()) return {};
+  std::vector<Obstacle> unused;
+  const MarkLabels labels = Gatherer(layers, view, panels).gather(panel, frame, stage, unused);
+  return standing_in(panels_[panel].area, panels_[panel].words.at(frame), labels.words());
 }
 
 std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
                                            const std::vector<Panel>& panels, std::size_t panel, int frame) const {
-  const std::span<const StandingWord> planned = at(panel, frame);
-  std::vector<StandingWord> words(planned.begin(), planned.end());
+  if (panels_.empty() || panels_[panel].words.empty()) return {};
+  const Gatherer gatherer(layers, view, panels);
+  std::vector<Obstacle> obstacles = gatherer.once(panel, view.shared_page(stage, sheet));
+  std::vector<MarkWord> wishes = gatherer.gather(panel, frame, stage, obstacles).words();
+  std::vector<StandingWord> words = standing_in(panels_[panel].area, panels_[panel].words.at(frame), wishes);
   const auto is_left_out = [](const StandingWord& word) { return !(word.opacity > 0); };
   const bool has_left_out = std::any_of(words.begin(), words.end(), is_left_out);
   for (StandingWord& word : words) word.opacity = is_left_out(word) ? 0 : 1;
   if (!has_left_out) return words;
-  const Gatherer gatherer(layers, view, panels);
-  std::vector<Obstacle> obstacles = gatherer.once(panel, view.shared_page(stage, sheet));
-  std::vector<MarkWord> wishes = gatherer.gather(panel, frame, stage, obstacles).words();
   std::vector<MarkWord> missing;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (is_left_out(words[i]))
@@ -126,11 +150,6 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
   for (StandingWord& word : words)
     if (is_left_out(word)) word = *next++;
   return words;
-}
-
-std::span<const StandingWord> FilmWords::at(std::size_t panel, int frame) const {
-  if (panels_.empty() || panels_[panel].empty()) return {};
-  return panels_[panel][std::size_t(frame)];
 }
 
 }  // namespace chainreel

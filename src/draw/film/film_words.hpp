@@ -1,7 +1,6 @@
 // Where the words of marks stand in each panel of a film, at each of its frames.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "draw/film/film_view.hpp"
@@ -15,16 +14,24 @@ class FilmWords {
   FilmWords(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
             const std::vector<Panel>& panels);
 
-  // Of a panel at the frame that it shows; empty where it has no words.
-  std::span<const StandingWord> at(std::size_t panel, int frame) const;
+  // For the words of a panel at the frame that it shows, which are added in the order in which they were planned.
+  MarkLabels labels(std::size_t panel, int frame) const;
+
+  // Where they stand; empty where the panel has none. With what the film was planned with.
+  std::vector<StandingWord> standing(const Stage& stage, const Layers& layers, const FilmView& view, const std::vector<Panel>& panels,
+                                     std::size_t panel, int frame) const;
 
   // The same for a picture by itself, in which nothing runs: words that fade stand whole, and those that the film leaves out there,
-  // since they would run faster than can be read, stand where there is room. With what the film was planned with.
+  // since they would run faster than can be read, stand where there is room.
   std::vector<StandingWord> still(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
                                   const std::vector<Panel>& panels, std::size_t panel, int frame) const;
 
  private:
-  std::vector<std::vector<std::vector<StandingWord>>> panels_;  // by panel and frame
+  struct OfPanel {
+    Rect area;
+    PlannedWords words;
+  };
+  std::vector<OfPanel> panels_;
 };
 
 }  // namespace chainreel

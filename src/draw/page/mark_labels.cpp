@@ -175,6 +175,11 @@ const TextLine& MarkWord::shape_for(const Rect& box) const {
   return *best;
 }
 
+StandingWord standing_at(const MarkWord& word, const ChosenPlace& chosen, const Rect& area) {
+  if (chosen.place == ChosenPlace::kNowhere) return {{}, 0, word.anchor};
+  return {moved_into(area, word.places[std::size_t(chosen.place)]), chosen.opacity, word.anchor};
+}
+
 void MarkLabels::add(MarkWord word) {
   words_.push_back(std::move(word));
 }
@@ -189,6 +194,7 @@ void MarkLabels::add(const std::string& name, TextLine line, const Rect& box, st
 
 void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int clip, double farthest) const {
   std::vector<StandingWord> standing(plan_.begin(), plan_.end());
+  for (std::size_t i = 0; i < std::min(chosen_.size(), words_.size()); ++i) standing.push_back(standing_at(words_[i], chosen_[i], area_));
   if (standing.empty()) {
     std::vector<Rect> wishes;
     for (const MarkWord& word : words_) wishes.push_back(word.places.front());

@@ -3,6 +3,7 @@
 // is no room near what they name.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -66,11 +67,21 @@ struct StandingWord {
   std::optional<Point> anchor{};  // as of its MarkWord
 };
 
+// The same in few bytes, since long films have many frames.
+struct ChosenPlace {
+  std::int16_t place = kNowhere;  // of its MarkWord, moved into the area
+  float opacity = 0;
+
+  static constexpr int kNowhere = -1;
+};
+StandingWord standing_at(const MarkWord& word, const ChosenPlace& chosen, const Rect& area);
+
 class MarkLabels {
  public:
   MarkLabels() = default;
   // Where the words stand, in the order in which they will be added.
   explicit MarkLabels(std::span<const StandingWord> plan) : plan_(plan) {}
+  MarkLabels(std::span<const ChosenPlace> chosen, const Rect& area) : chosen_(chosen), area_(area) {}
 
   void add(MarkWord word);
   // `box`: where the ink of the line is wished; places around it will do.
@@ -83,6 +94,8 @@ class MarkLabels {
 
  private:
   std::span<const StandingWord> plan_;
+  std::span<const ChosenPlace> chosen_;
+  Rect area_{};  // of these
   std::vector<MarkWord> words_;
 };
 

@@ -26,6 +26,8 @@ constexpr double kCrossedByLeader = 0.3;  // the same for each piece of what is 
 constexpr double kEndOfLeader = 0.03;  // units of H: what lies so near to its end is what it leads to
 constexpr int kMostCrossed = 5;
 constexpr double kMiddleOfLetters = 0.3;  // of their size, above the line and to either side
+constexpr int kStretch = 1800;  // frames of a film that are decided upon together
+constexpr double kAhead = 2, kSure = 0.5, kBehind = 0.5;  // s: how far it is looked beyond them, what of that stays as it was decided, what is kept of those before
 constexpr int kPlanRounds = 2;  // each word is placed again when all others have places
 
 struct ShapeObstacles {
@@ -162,7 +164,7 @@ void find_near(const MarkWord& word, const Rect& area, const std::vector<Blocked
   std::copy_if(all.begin(), all.end(), std::back_inserter(near), [&](const Blocked& one) { return reaches(one.room, room); });
 }
 
-constexpr int kNowhere = -1;
+constexpr int kNowhere = ChosenPlace::kNowhere;
 
 }  // namespace
 
@@ -187,9 +189,8 @@ WordPlan::Track& WordPlan::track_of(const MarkWord& word, int frame) {
   std::size_t nearest = tracks_.size();
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t i : named) {
-    const Moment& last = tracks_[i].back();
-    const double way = norm(center_of(last.places.front()) - center_of(word.places.front()));
-    if (last.frame < frame && way < least) least = way, nearest = i;
+    const double way = norm(tracks_[i].last_wish - center_of(word.places.front()));
+    if (tracks_[i].last_frame < frame && way < least) least = way, nearest = i;
   }
   if (nearest == tracks_.size()) {
     named.push_back(nearest);
@@ -199,14 +200,14 @@ WordPlan::Track& WordPlan::track_of(const MarkWord& word, int frame) {
 }
 
 void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacle>& obstacles) {
-  const int frame = int(counts_.size());
+  const int frame = frames();
   counts_.push_back(int(words.size()));
   std::vector<Blocked> all, near;
   all.reserve(obstacles.size());
   for (const Obstacle& one : obstacles) all.push_back({room_of(one), one});
   const std::size_t most = words.size() > kCrowdOfWords ? 1 : std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < words.size(); ++i) {
-    Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}, words[i].anchor, {}};
+    Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}, words[i].anchor, {}, {}};
     if (!now.insists) now.tie = words[i].tie;
     find_near(words[i], area_, all, near);
     for (const Rect& wish : words[i].places) {
@@ -220,8 +221,13 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
       if (words[i].leader) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_leader(*words[i].leader, box, near));
       if (now.tie) now.leaders.push_back(ground == Ground::taken ? 0 : cost_of_tie(*now.tie, box, near));
     }
-    track_of(words[i], frame).push_back(std::move(now));
+    Track& track = track_of(words[i], frame);
+    track.last_frame = frame;
+    track.last_wish = center_of(now.places.front());
+    track.moments.push_back(std::move(now));
   }
+  const int ahead = frames_in(kAhead);
+  if (frames() - settled_ >= kStretch + ahead) settle(frames() - ahead);
 }
 
 namespace {
@@ -265,7 +271,7 @@ std::vector<int> best_way(const Track& track, int frames, int shortest, Cost cos
       const Stay earlier = goes_on(track, m, p) ? stays[m - 1][std::size_t(p)] : Stay{};
       stay.frames = earlier.frames + 1;
       stay.along = earlier.along + cost;
-      const int from = track[m].frame == 0 || track[m].frame == frames - 1 ? 1 : shortest;
+      const int from = track[m].frame == 0 || track[m].frame == frames - 1 || track[m].fixed ? 1 : shortest;
       for (int ago = from; ago <= std::min(shortest, stay.frames); ++ago) {
         const std::size_t begin = m + 1 - std::size_t(ago);
         const double passed = stay.frames > ago ? stays[begin - 1][std::size_t(p)].along : 0;
@@ -305,67 +311,115 @@ std::vector<double> opacities(const Track& track, const std::vector<int>& way, d
   return strength;
 }
 
-}  // namespace
-
-namespace {
-
-// A word that has its place, and the line that leads there.
-struct Placed {
-  StandingWord word;
-  std::optional<TieLine> line;
-};
-
 bool crosses(const std::optional<TieLine>& line, const Rect& box) {
   if (!line) return false;
   Point from = line->from, to = line->to;
   return cut_segment(box, from, to);
 }
 
-// Whether one hides the other, or is struck by its line.
-bool meets(const Placed& other, const Rect& box, const std::optional<TieLine>& line, double between) {
-  if (!(other.word.opacity > 0)) return false;
-  const Rect wide = widened(box, between);
-  return overlap(wide, other.word.box) || crosses(other.line, wide) || crosses(line, widened(other.word.box, between));
-}
-
 }  // namespace
 
-std::vector<std::vector<StandingWord>> WordPlan::standing() const {
-  const int frames = int(counts_.size());
-  const int shortest = std::clamp(int(std::lround(kShortestStay * fps_)), 1, std::max(1, frames));
-  std::vector<std::vector<Placed>> placed(counts_.size());
-  for (std::size_t k = 0; k < counts_.size(); ++k) placed[k].resize(std::size_t(counts_[k]), {{{}, 0, {}}, {}});
+struct WordPlan::Placed {
+  StandingWord word{{}, 0, {}};
+  std::optional<TieLine> line{};  // that leads there
+  int place = kNowhere;
+
+  ChosenPlace chosen() const { return {std::int16_t(place), float(word.opacity)}; }
+  // Whether one hides the other, or is struck by its line.
+  bool meets(const Rect& box, const std::optional<TieLine>& other, double between) const {
+    if (!(word.opacity > 0)) return false;
+    const Rect wide = widened(box, between);
+    return overlap(wide, word.box) || crosses(line, wide) || crosses(other, widened(word.box, between));
+  }
+};
+
+int WordPlan::frames_in(double seconds) const {
+  return std::max(1, int(std::lround(seconds * fps_)));
+}
+
+// `is_whole`: the last frame is that of the film.
+WordPlan::Decisions WordPlan::decide(bool is_whole) const {
+  const int all = is_whole ? frames() : std::numeric_limits<int>::max();
+  const int shortest = std::clamp(frames_in(kShortestStay), 1, std::max(1, all));
+  Decisions placed(counts_.size());
+  for (std::size_t k = 0; k < counts_.size(); ++k) placed[k].resize(std::size_t(counts_[k]));
+  const auto frame_of = [&](const Moment& now) -> std::vector<Placed>& { return placed[std::size_t(now.frame - first_)]; };
   for (int round = 0; round < kPlanRounds; ++round)
     // What is drawn above others has words first: vectors before the letters of axes.
-    for (const Track& track : std::views::reverse(tracks_)) {
-      for (const Moment& now : track) placed[std::size_t(now.frame)][std::size_t(now.index)].word.opacity = 0;
+    for (const Track& one : std::views::reverse(tracks_)) {
+      const std::vector<Moment>& track = one.moments;
+      if (track.empty()) continue;
+      for (const Moment& now : track) frame_of(now)[std::size_t(now.index)].word.opacity = 0;
       // How long a frame is looked at, s.
       const auto stands = [&](std::size_t m) {
-        const bool is_end = track[m].frame == 0 || track[m].frame == frames - 1;
-        return 1 / fps_ + (is_end && frames > 1 ? kStandsLonger : 0);
+        const bool is_end = track[m].frame == 0 || track[m].frame == all - 1;
+        return 1 / fps_ + (is_end && all > 1 ? kStandsLonger : 0);
       };
+      const double never = std::numeric_limits<double>::infinity();
       const auto cost_of = [&](std::size_t m, int p) {
         const Moment& now = track[m];
-        const double never = std::numeric_limits<double>::infinity();
+        if (now.fixed) return *now.fixed == p ? 0 : never;
         const Ground ground = now.grounds[std::size_t(p)];
         if (ground == Ground::taken) return never;
         const std::optional<TieLine> tie = now.line_at(p);
-        const bool is_met = std::ranges::any_of(placed[std::size_t(now.frame)], [&](const Placed& other) {
-          return meets(other, now.places[std::size_t(p)], tie, between_);
+        const bool is_met = std::ranges::any_of(frame_of(now), [&](const Placed& other) {
+          return other.meets(now.places[std::size_t(p)], tie, between_);
         });
         const double poor = ground == Ground::poor ? kPoorGround * stands(m) : 0;
         if (now.insists) return (p * kWorseOfMany + now.leaders[std::size_t(p)]) / fps_ + poor + (is_met ? kPoorGround * stands(m) : 0);
         const double line = now.leaders.empty() ? 0 : now.leaders[std::size_t(p)];
         return is_met ? never : (p * kWorsePlace + line) / fps_ + poor;
       };
-      const std::vector<int> way = best_way(track, frames, track.front().insists ? 1 : shortest, cost_of, [&](std::size_t m) { return kHidden * stands(m); });
-      const std::vector<double> strength = opacities(track, way, fps_, frames);
-      for (std::size_t m = 0; m < track.size(); ++m)
-        if (way[m] != kNowhere)
-          placed[std::size_t(track[m].frame)][std::size_t(track[m].index)] = {track[m].at(way[m], strength[m]), track[m].line_at(way[m])};
+      const auto hidden = [&](std::size_t m) {
+        const auto& fixed = track[m].fixed;
+        return !fixed ? kHidden * stands(m) : *fixed == kNowhere ? 0 : never;
+      };
+      const std::vector<int> way = best_way(track, all, track.front().insists ? 1 : shortest, cost_of, hidden);
+      const std::vector<double> strength = opacities(track, way, fps_, all);
+      for (std::size_t m = 0; m < track.size(); ++m) {
+        const Moment& now = track[m];
+        Placed& here = frame_of(now)[std::size_t(now.index)];
+        here.place = way[m];
+        if (way[m] != kNowhere) here.word = now.at(way[m], strength[m]), here.line = now.line_at(way[m]);
+      }
     }
+  return placed;
+}
+
+// Frames before `end` are decided for good. What comes soon behind is, too, so that a word which fades there has begun to.
+void WordPlan::settle(int end) {
+  const Decisions placed = decide(false);
+  std::vector<ChosenPlace> words;
+  for (; settled_ < end; ++settled_) {
+    words.clear();
+    for (const Placed& one : placed[std::size_t(settled_ - first_)]) words.push_back(one.chosen());
+    planned_.add_frame(words);
+  }
+  const int sure = end + frames_in(kSure), kept = std::max(first_, end - frames_in(kBehind));
+  for (Track& track : tracks_) {
+    for (Moment& now : track.moments)
+      if (now.frame < sure) now.fixed = placed[std::size_t(now.frame - first_)][std::size_t(now.index)].place;
+    std::erase_if(track.moments, [&](const Moment& now) { return now.frame < kept; });
+  }
+  counts_.erase(counts_.begin(), counts_.begin() + (kept - first_));
+  first_ = kept;
+}
+
+PlannedWords WordPlan::planned() const {
+  PlannedWords all = planned_;
+  const Decisions placed = decide(true);
+  std::vector<ChosenPlace> words;
+  for (int frame = settled_; frame < frames(); ++frame) {
+    words.clear();
+    for (const Placed& one : placed[std::size_t(frame - first_)]) words.push_back(one.chosen());
+    all.add_frame(words);
+  }
+  return all;
+}
+
+std::vector<std::vector<StandingWord>> WordPlan::standing() const {
   std::vector<std::vector<StandingWord>> words;
-  for (const std::vector<Placed>& frame : placed) {
+  for (const std::vector<Placed>& frame : decide(true)) {
     words.emplace_back();
     for (const Placed& one : frame) words.back().push_back(one.word);
   }

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,15 +37,34 @@ inline constexpr double kBetweenWords = 0.006;
 // Between a word and what it keeps off.
 inline constexpr double kWordAir = 0.004;
 
+// What is decided of a film's words, by frame, in the order of the words of each.
+class PlannedWords {
+ public:
+  void add_frame(std::span<const ChosenPlace> words) {
+    words_.insert(words_.end(), words.begin(), words.end());
+    ends_.push_back(words_.size());
+  }
+  std::span<const ChosenPlace> at(int frame) const {
+    const std::size_t begin = frame > 0 ? ends_[std::size_t(frame) - 1] : 0;
+    return std::span(words_).subspan(begin, ends_[std::size_t(frame)] - begin);
+  }
+  bool empty() const { return ends_.empty(); }
+
+ private:
+  std::vector<ChosenPlace> words_;
+  std::vector<std::size_t> ends_;
+};
+
 class WordPlan {
  public:
   enum class Ground : std::uint8_t { free, poor, taken };  // what lies at a place
 
   WordPlan(const Rect& area, double fps, double between = kBetweenWords) : area_(area), fps_(fps), between_(between) {}
 
-  // The next frame.
+  // The next frame. A long film is planned by stretches, each with a look at what comes, so that only these are kept in memory.
   void add(const std::vector<MarkWord>& words, const std::vector<Obstacle>& obstacles);
-  // By frame, in the order of the words.
+  PlannedWords planned() const;
+  // The same as boxes: of one stretch at most, from its first frame on.
   std::vector<std::vector<StandingWord>> standing() const;
 
  private:
@@ -55,20 +76,34 @@ class WordPlan {
     std::vector<double> leaders;  // of words with a line: what that from each place costs
     std::optional<Point> anchor;
     std::optional<Tie> tie;
+    std::optional<int> fixed{};  // the place that was decided upon, or kNowhere
 
     std::optional<TieLine> line_at(int place) const { return tie ? line_of(*tie, places[std::size_t(place)]) : std::nullopt; }
     StandingWord at(int place, double opacity = 1) const { return {places[std::size_t(place)], opacity, anchor}; }
   };
   // One word from frame to frame.
-  using Track = std::vector<Moment>;
+  struct Track {
+    std::vector<Moment> moments;
+    int last_frame = -1;
+    Point last_wish{};  // the middle of its best place there
+  };
+  struct Placed;  // a word that has its place
+  using Decisions = std::vector<std::vector<Placed>>;  // by frame from first_ on
 
   Track& track_of(const MarkWord& word, int frame);
+  int frames() const { return first_ + int(counts_.size()); }
+  int frames_in(double seconds) const;
+  Decisions decide(bool is_whole) const;
+  void settle(int end);
 
   Rect area_;
   double fps_, between_;
-  std::vector<int> counts_;  // words of each frame
+  int first_ = 0;            // frame of which the moments are kept
+  int settled_ = 0;          // frames that are decided, for good
+  std::vector<int> counts_;  // words of each frame from first_ on
   std::vector<Track> tracks_;
   std::map<std::string, std::vector<std::size_t>> by_name_;
+  PlannedWords planned_;  // settled frames
 };
 
 }  // namespace chainreel

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace chainreel {
 namespace {
@@ -212,6 +213,49 @@ TEST(WordPlan, TellsWhatIsInTheWay) {
   picture.add(Polygon{{Point{0, 0}, {1, 0}, {0, 1}}, 3, {ink, {}, 0}});
   picture.add(Ellipse{{0.5, 0.5}, {0.1, 0}, {0, 0.1}, {ink, {}, 0}});
   EXPECT_EQ(obstacles_of(picture).size(), 1u + 6u + 1u);
+}
+
+// A long film is planned by stretches. Bars come over both places again and again, also where one stretch ends: everywhere the word
+// keeps off them and fades before it goes.
+TEST(WordPlan, KeepsItsPromisesWhereStretchesMeet) {
+  constexpr int kFrames = 6000, kPeriod = 137;  // the seams meet all of its phases
+  WordPlan plan(kPlanArea, kPlanFps);
+  const MarkWord word = word_at("v", {{0.5, 0.5}, {0.2, 0.5}});
+  std::vector<Obstacle> bars;
+  for (int k = 0; k < kFrames; ++k) {
+    bars.push_back(bar(0.1 + 0.5 * std::abs(std::sin(std::numbers::pi * k / kPeriod))));
+    plan.add({word}, {bars.back()});
+  }
+  const PlannedWords planned = plan.planned();
+  int shown = 0, moves = 0;
+  StandingWord before = standing_at(word, planned.at(0)[0], kPlanArea);
+  for (int k = 0; k < kFrames; ++k) {
+    const StandingWord now = standing_at(word, planned.at(k)[0], kPlanArea);
+    EXPECT_FALSE(lies_on(now, bars[std::size_t(k)])) << k;
+    EXPECT_LE(std::abs(now.opacity - before.opacity), 0.251) << k << ": fades take seven frames";
+    const bool is_moved = now.opacity > 0 && before.opacity > 0 && now.box.x0 != before.box.x0;
+    if (is_moved) EXPECT_LT(std::max(now.opacity, before.opacity), 0.5) << k;
+    moves += is_moved;
+    shown += now.opacity > 0;
+    before = now;
+  }
+  EXPECT_GT(moves, 2 * kFrames / kPeriod - 3) << "negative control: it had to move all the time";
+  EXPECT_GT(shown, kFrames / 2);
+}
+
+// What comes behind a stretch counts within it: the word is gone from where a bar will be before that is decided.
+TEST(WordPlan, OfOneStretchIsThatOfAll) {
+  constexpr int kFrames = 1500;
+  WordPlan plan(kPlanArea, kPlanFps);
+  const MarkWord word = word_at("v", {{0.5, 0.5}, {0.2, 0.5}});
+  for (int k = 0; k < kFrames; ++k) plan.add({word}, {bar(0.1 + 0.5 * std::abs(std::sin(0.01 * k)))});
+  const auto standing = plan.standing();
+  const PlannedWords planned = plan.planned();
+  for (int k = 0; k < kFrames; ++k) {
+    const StandingWord now = standing_at(word, planned.at(k)[0], kPlanArea);
+    ASSERT_EQ(now.opacity, float(standing[std::size_t(k)][0].opacity)) << k;
+    if (now.opacity > 0) ASSERT_EQ(now.box.x0, standing[std::size_t(k)][0].box.x0) << k;
+  }
 }
 
 }  // namespace
