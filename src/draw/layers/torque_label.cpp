@@ -201,12 +201,12 @@ std::string gain_notation(const std::vector<double>& gains) {
   return "diag(" + list_of(numbers, numbers.size()) + ")";
 }
 
-// "F = 400 (x_{ref} - x) + 40 (xd_{ref} - xd)": what a spring and a damper at the end effector pull with.
+// "F = 400 N/m (x_{ref} - x) + 40 N s/m (xd_{ref} - xd)": what a spring and a damper at the end effector pull with.
 std::string task_notation(const TaskFeedback& task) {
   const auto is_there = [](const std::vector<double>& gains) { return std::any_of(gains.begin(), gains.end(), [](double gain) { return gain != 0; }); };
   std::string force;
-  if (is_there(task.kp)) force = gain_notation(task.kp) + " (x_{ref} - x)";
-  if (is_there(task.kd)) force += (force.empty() ? "" : " + ") + gain_notation(task.kd) + " (xd_{ref} - xd)";
+  if (is_there(task.kp)) force = gain_notation(task.kp) + " N/m (x_{ref} - x)";
+  if (is_there(task.kd)) force += (force.empty() ? "" : " + ") + gain_notation(task.kd) + " N s/m (xd_{ref} - xd)";
   return force.empty() ? "" : "F = " + force;
 }
 
