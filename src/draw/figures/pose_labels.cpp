@@ -20,7 +20,7 @@ constexpr double kBetweenNumbers = 0.8;  // of their height
 constexpr double kAirOfName = 0.010, kTipAir = 0.010;  // units of H, around a name and a tip
 // What a name pays for what it does, inwards from the middle of all tips at most kInward: for a unit it goes 0.1 H farther to
 // avoid it.
-constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 1.2, kOnLine = 0.9, kOnBar = 0.5, kInward = 0.3, kPerH = 10;
+constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 2, kOnLine = 2, kOnBar = 0.5, kInward = 0.3, kPerH = 10;
 constexpr double kAtEnd = 0.1;  // of a name at an end of its curve
 constexpr double kLeastAtEnd = 0.03;  // units of H: a shorter leader to an end of a curve would be a blot on it
 constexpr double kOutward = 0.3;  // cosine: there it stands no farther aside
