@@ -205,8 +205,8 @@ std::string gain_notation(const std::vector<double>& gains) {
 std::string task_notation(const TaskFeedback& task) {
   const auto is_there = [](const std::vector<double>& gains) { return std::any_of(gains.begin(), gains.end(), [](double gain) { return gain != 0; }); };
   std::string force;
-  if (is_there(task.kp)) force = gain_notation(task.kp) + " N/m (x_{ref} - x)";
-  if (is_there(task.kd)) force += (force.empty() ? "" : " + ") + gain_notation(task.kd) + " N s/m (xd_{ref} - xd)";
+  if (is_there(task.kp)) force = gain_notation(task.kp) + " N/m\" \"(x_{ref} - x)";
+  if (is_there(task.kd)) force += (force.empty() ? "" : " + ") + gain_notation(task.kd) + " N s/m\" \"(xd_{ref} - xd)";
   return force.empty() ? "" : "F = " + force;
 }
 

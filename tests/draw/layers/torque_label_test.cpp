@@ -122,11 +122,11 @@ TEST(TorqueLabel, SaysWhatPullsTheEndEffector) {
   control.task->kp = {400};
   control.task->kd = {40};
   EXPECT_THAT(torque_notations(test::model("rr"), {}, control),
-              testing::ElementsAre("tau = J^T F, F = 400 N/m (x_{ref} - x) + 40 N s/m (xd_{ref} - xd)", "tau = J^T F", "tau = tau(t, q, qd)"));
+              testing::ElementsAre("tau = J^T F, F = 400 N/m\" \"(x_{ref} - x) + 40 N s/m\" \"(xd_{ref} - xd)", "tau = J^T F", "tau = tau(t, q, qd)"));
   control.task->kp = {50, 0};
   control.task->kd = {0};
   const std::string along_x = torque_notations(test::model("rr"), {}, control).front();
-  EXPECT_EQ(along_x, "tau = J^T F, F = diag(50, 0) N/m (x_{ref} - x)");
+  EXPECT_EQ(along_x, "tau = J^T F, F = diag(50, 0) N/m\" \"(x_{ref} - x)");
   EXPECT_NO_THROW(lay_out_math(fonts(), along_x, {}));
 }
 
