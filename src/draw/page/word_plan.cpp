@@ -361,7 +361,8 @@ WordPlan::Decisions WordPlan::decide(bool is_whole) const {
         if (now.fixed) return *now.fixed == p ? 0 : never;
         const Ground ground = now.grounds[std::size_t(p)];
         if (ground == Ground::taken) return never;
-        const std::optional<TieLine> tie = now.line_at(p);
+        // Figures keep their lines apart themselves, where words have many more of them (draw/figures/pose_labels).
+        const std::optional<TieLine> tie = all > 1 ? now.line_at(p) : std::nullopt;
         const bool is_met = std::ranges::any_of(frame_of(now), [&](const Placed& other) {
           return other.meets(now.places[std::size_t(p)], tie, between_);
         });
@@ -380,7 +381,7 @@ WordPlan::Decisions WordPlan::decide(bool is_whole) const {
         const Moment& now = track[m];
         Placed& here = frame_of(now)[std::size_t(now.index)];
         here.place = way[m];
-        if (way[m] != kNowhere) here.word = now.at(way[m], strength[m]), here.line = now.line_at(way[m]);
+        if (way[m] != kNowhere) here.word = now.at(way[m], strength[m]), here.line = all > 1 ? now.line_at(way[m]) : std::nullopt;
       }
     }
   return placed;
