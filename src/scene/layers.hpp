@@ -52,7 +52,7 @@ enum class LayerNeeds {
       "where any acts: arcs at revolute joints, arrows beside the rails of sliders; a ring where one rests") \
   ROW(push, "push", 14, nothing, "what pushes from outside: an arrow where and while it acts")                \
   ROW(velocity, "velocity", 0, end_effector, "velocity of the end effector")                                \
-  ROW(constraint_force, "constraint_force", 0, nothing, "dashed: what constraints exert on the robot, -lambda of their rows") \
+  ROW(constraint_force, "constraint_force", 15, nothing, "dashed: what constraints exert on the robot, -lambda of their rows") \
   ROW(center_over_foot, "chain", 0, nothing, "")                                                            \
   ROW(com, "com", 0, nothing, "the centre of mass of the whole chain")                                      \
   ROW(annotations, "", 0, nothing, "")                                                                      \

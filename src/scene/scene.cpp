@@ -38,7 +38,7 @@ const std::vector<std::string>& default_layers() {
 const std::vector<std::string>& default_layers_of_panels() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> some = default_layers();
-    std::erase(some, "target");
+    for (const char* name : {"target", "constraint_force"}) std::erase(some, name);
     return some;
   }();
   return names;

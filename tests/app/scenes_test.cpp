@@ -189,6 +189,25 @@ TEST(LayoutAuto, TellsTheStoryBesideANarrowMotionAndBelowAFlatOne) {
   EXPECT_GE(flat.kept, 0.9);
 }
 
+TEST(LayoutAuto, OnAPageHigherThanWideANarrowMotionGivesMoreToItsPlot) {
+  const TwoPages spring("pp_spring", {"video.width=1080", "video.height=1920"});
+  EXPECT_LT(spring.area.height(), 0.8 * spring.whole.height());
+  EXPECT_GE(spring.kept, 0.6);
+  EXPECT_TRUE(TwoPages("pp_free", {"video.width=1080", "video.height=1920"}).is_whole()) << "that motion fills the page";
+}
+
+// Steps so long that both runs err have the exact motion in their plot; of runs of which one is exact there is no more to say.
+TEST(Plots, OfMethodsThatErrShowWhatIsExact) {
+  const auto words_of = [](const std::string& name, const std::vector<std::string>& more) {
+    const PreparedFilm film = load_film("assets/scenes/" + name + ".yaml", more);
+    const Runs runs(film);
+    return test::words_of(runs.pictures(1, Fonts()).static_layer());
+  };
+  EXPECT_THAT(words_of("big_steps", {}), testing::HasSubstr("exact"));
+  EXPECT_THAT(words_of("big_steps", {"compare.1.parameters={}", "compare.1.start.q=[0, 0.5]"}), testing::Not(testing::HasSubstr("exact"))) << "two motions";
+  EXPECT_THAT(words_of("euler_gains_energy", {}), testing::Not(testing::HasSubstr("exact"))) << "the Taylor series is";
+}
+
 // Panels of a motion that is narrow are as tall as the page, and their plot stands beside them; those of a wide one keep it below.
 TEST(LayoutCompare, HasThePlotBesidePanelsOfANarrowMotion) {
   const auto area_of = [](const std::vector<std::string>& more) {

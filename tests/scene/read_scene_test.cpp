@@ -67,7 +67,7 @@ TEST_F(ReadScene, ReadsEveryKey) {
 
 TEST_F(ReadScene, EditsTheDefaultLayersByPlusAndMinus) {
   EXPECT_THAT(read("draw: [+ellipse, -trail]").draw,
-              ElementsAre("chain", "time", "title", "torque_label", "ground", "constraints", "springs", "torque", "target", "g", "limits", "shadow", "push", "ellipse"));
+              ElementsAre("chain", "time", "title", "torque_label", "ground", "constraints", "springs", "torque", "target", "g", "limits", "shadow", "push", "constraint_force", "ellipse"));
   EXPECT_THAT(error("draw: [+ellipse, trail]"), HasSubstr("do not mix"));
   EXPECT_THAT(error("draw: [+torques]"), HasSubstr("did you mean 'torque'?"));
   EXPECT_THAT(error("theme: drak"), HasSubstr("'theme' must be light or dark, not 'drak'"));

@@ -61,6 +61,30 @@ std::vector<PreparedScene> prepare_panels(const std::vector<Scene>& scenes, bool
   return panels;
 }
 
+// How a motion is found that stands for the exact one. Where it is so hard that it takes more than these evaluations its beginning is.
+struct Reference {
+  const char* method;
+  double tolerance;
+};
+constexpr Reference kReferences[] = {{"dop853", 1e-12}, {"radau5", 1e-10}};
+constexpr long kMostEvaluations = 1000000;
+
+std::vector<Simulation> references_of(const Scene& page) {
+  const auto is_plotted = [](const PlotEntry& plot) { return plot.value != to_string(PlotQuantity::energy_error); };
+  if (std::ranges::none_of(page.plot, is_plotted) || page.compare.front().motion || !differ_by_method_alone(page.compare)) return {};
+  std::vector<Simulation> references;
+  for (const Reference& reference : kReferences) {
+    Scene scene = page.compare.front();
+    scene.method = reference.method;
+    scene.tolerance = reference.tolerance;
+    scene.step.reset();
+    scene.order.reset();
+    references.push_back(prepare(scene, false));
+    references.back().most_evaluations = kMostEvaluations;
+  }
+  return references;
+}
+
 void drive(Scene& scene, const OwnTorque& torque) {
   if (scene.motion)
     throw Error(ExitCode::usage, "the scene shows a recorded motion, whose torques follow from it, and is given " + torque.words +
@@ -160,6 +184,7 @@ PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<O
     notice_the_page(film);
     return film;
   }
+  if (meshes) film.references = references_of(film.scene);
   film.panels = prepare_panels(film.scene.compare, meshes, quiet, between);
   for (std::size_t i = 0; i < film.panels.size(); ++i) film.scene.compare[i] = film.panels[i].scene;
   name_panels(film.scene.compare);

@@ -27,6 +27,9 @@ struct PreparedFilm {
   Scene scene;  // the effective one; its `compare` holds the panels' scenes
   std::vector<PreparedScene> panels;
   bool quiet = true;  // nothing is said while its runs are computed
+  // Of pictures whose panels show one motion by several methods, and plot it: that motion by two methods far more exact than is
+  // seen, of which one confirms the other; else none.
+  std::vector<Simulation> references{};
 };
 
 // The most links that a panel draws as bars, in colours of the theme.

@@ -176,11 +176,20 @@ double promised_until(const PreparedScene& panel) {
 
 }  // namespace
 
+void Runs::run_references() const {
+  if (!references_.empty()) return;
+  for (const Simulation& reference : film_.references) {
+    references_.push_back(simulate(reference, times_, [](double) { return interrupted(); }, {}, between_of(film_)));
+    throw_if_interrupted();
+  }
+}
+
 std::vector<PanelRun> Runs::panels() const {
+  run_references();
   std::vector<PanelRun> panels;
   for (std::size_t i = 0; i < list_.size(); ++i)
     panels.push_back({film_.panels[i].scene, film_.panels[i].simulation.chain, list_[i],
-                      &film_.panels[i].simulation, film_.panels[i].shapes.get(), promised_until(film_.panels[i])});
+                      &film_.panels[i].simulation, film_.panels[i].shapes.get(), promised_until(film_.panels[i]), references_});
   return panels;
 }
 

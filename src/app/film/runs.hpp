@@ -54,12 +54,14 @@ class Runs {
 
  private:
   std::vector<PanelRun> panels() const;
+  void run_references() const;
 
   const PreparedFilm& film_;
   FilmClock clock_;
   bool leaves_slow_motion_out_ = false;  // some that there would be
   std::vector<double> times_;
   std::vector<Trajectory> list_;
+  mutable std::vector<Trajectory> references_;  // of the film, as soon as a picture is asked for
 };
 
 // The events of each panel.

@@ -15,7 +15,7 @@ constexpr double kWidestPlots = 0.62;  // of the page's width
 constexpr double kKeptBeside = 0.12;   // units of H, of the scene for words and the arrow of gravity
 constexpr double kPlotsOfSpare = 0.6;  // ... of the height that a motion leaves, for plots below it
 constexpr double kHighestPlots = 0.34;
-constexpr double kNarrowMotion = 0.5;  // of its height
+constexpr double kNarrowMotion = 0.5;  // of its height, or of the page's width
 constexpr double kNarrowestPlots = 0.3;  // of the page's width, beside panels
 constexpr double kTitleAir = 1.1;      // times the least width of a panel's title
 constexpr double kWorthwhile = 0.02;   // ... of the width
@@ -150,7 +150,11 @@ Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
   if (!may_tell) return {page, {}};
   const Story story = page.plot.empty() ? story_of(*plain.stage) : Story();
   if (page.plot.empty() && story.empty()) return {page, {}};
-  const double kept = is_of_methods ? kLeastKeptOfMethods : is_comparison && !is_ghost ? kLeastKeptOfPanels : kLeastKept;
+  const bool leaves_half = !is_comparison && is_narrow(page) && plain.view.size_used().x < kNarrowMotion * plain.sheet.sheet.scene.width();
+  const double kept = is_of_methods                ? kLeastKeptOfMethods
+                      : is_comparison && !is_ghost ? kLeastKeptOfPanels
+                      : leaves_half                ? kLeastKeptOfNarrow
+                                                   : kLeastKept;
   // Where plots of a comparison stand FilmSheet knows.
   const std::vector<PageLayout> layouts = is_comparison ? std::vector{page.layout} : std::vector{PageLayout::scene_right, PageLayout::scene_below};
   for (const PageLayout layout : layouts) {

@@ -40,7 +40,8 @@ struct Composition {
 // Comparisons have theirs on pages that are narrow, and those that lie over one another on all, where it costs next to nothing; those
 // of methods, which look alike, where kLeastKeptOfMethods is kept.
 inline constexpr double kLeastScene = 0.45;
-inline constexpr double kLeastKept = 0.8, kLeastKeptOfPanels = 0.95, kLeastKeptOfMethods = 0.55;
+// A motion so narrow that it leaves half of a narrow page empty gives its plot more: kLeastKeptOfNarrow.
+inline constexpr double kLeastKept = 0.8, kLeastKeptOfPanels = 0.95, kLeastKeptOfMethods = 0.55, kLeastKeptOfNarrow = 0.6;
 Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
                     const FilmClock& clock);
 

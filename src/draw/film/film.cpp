@@ -176,40 +176,41 @@ Picture Film::drawn(int k, bool is_still) const {
   return picture;
 }
 
+// A note in a row: an event a line where the row has two; in a narrow one of one line stands the last alone, and where that is still
+// too long its name. How far away a run has been is said in smaller letters before it is left out.
+std::vector<TextLine> Film::note_lines(const Panel& panel, int k, const Rect& row, const TextStyle& style) const {
+  const double text_scale = stage_->page.text_scale, least = least_word(stage_->page.video);
+  const std::string whose = stage_->is_ghost() ? panel.title() + ": " : "";
+  const auto widest = [](const std::vector<TextLine>& lines) { return std::ranges::max(lines, {}, &TextLine::advance).advance; };
+  std::vector<TextLine> lines;
+  for (const int events : {2, 1, 0}) {
+    const std::string note = whose + panel.note(k, events);
+    const bool is_long = lay_out_text(stage_->fonts, note, style).advance > row.width();
+    std::vector<std::string> parts{note};
+    if (const auto broken = broken_note(note, is_long); broken && row.height() > 1.5 * kNotePitch * style.size) parts = {broken->first, broken->second};
+    lines.clear();
+    for (const std::string& part : parts) lines.push_back(fit_text(stage_->fonts, part, style, row.width(), text_scale));
+    const double wide = widest(lines);
+    if (wide <= row.width() + kRoundOff) return lines;
+    TextStyle small = style;
+    small.size = std::max(scaled(kSmallestText, text_scale) * row.width() / wide, least);
+    lines.clear();
+    for (const std::string& part : parts) lines.push_back(lay_out_text(stage_->fonts, part, small));
+    if (note.find(kBeforeAway) != std::string::npos && widest(lines) <= row.width() + kRoundOff) return lines;
+  }
+  return lines;  // as small as it must be, down to what can be read
+}
+
 // What happened in the panels; where they lie over one another each says whose it is.
 void Film::draw_notes(Picture& picture, int k) const {
   if (!(sheet_.rows.note > 0)) return;
+  const TextStyle style{Face::label, scaled(size::kAxis, stage_->page.text_scale), stage_->theme.ink, Align::left};
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     if (panels_[i].note(k).empty()) continue;
     const Rect& row = view_.cells[i].note;
-    const double text_scale = stage_->page.text_scale;
-    const TextStyle style{Face::label, scaled(size::kAxis, text_scale), stage_->theme.ink, Align::left};
-    const std::string whose = stage_->is_ghost() ? panels_[i].title() + ": " : "";
-    TextLine line;
-    // A row of two lines has an event each; in a narrow one of one line stands the last alone, and where that is still too long
-    // its name.
-    const double pitch = kNotePitch * style.size;
-    for (const int events : {2, 1, 0}) {
-      const std::string note = whose + panels_[i].note(k, events);
-      const double full = lay_out_text(stage_->fonts, note, style).advance;
-      if (const auto broken = broken_note(note, full > row.width()); broken && row.height() > 1.5 * pitch) {
-        const TextLine first = fit_text(stage_->fonts, broken->first, style, row.width(), text_scale);
-        if (first.advance > row.width() + kRoundOff) continue;
-        draw_text(picture, first, {row.x0, row.y0 + kTitleDescent * style.size + pitch});
-        line = fit_text(stage_->fonts, broken->second, style, row.width(), text_scale);
-      } else {
-        line = fit_text(stage_->fonts, note, style, row.width(), text_scale);
-      }
-      if (line.advance <= row.width() + kRoundOff) break;
-    }
-    // One that is still too long is as small as it must be, down to what can be read.
-    if (line.advance > row.width() + kRoundOff) {
-      TextStyle small = style;
-      small.size = std::max(scaled(kSmallestText, text_scale) * row.width() / line.advance,
-                            least_word(stage_->page.video));
-      line = lay_out_text(stage_->fonts, whose + panels_[i].note(k, 0), small);
-    }
-    draw_text(picture, line, {row.x0, row.y0 + kTitleDescent * style.size});
+    double y = row.y0 + kTitleDescent * style.size;
+    const std::vector<TextLine> lines = note_lines(panels_[i], k, row, style);
+    for (auto line = lines.rbegin(); line != lines.rend(); ++line, y += kNotePitch * style.size) draw_text(picture, *line, {row.x0, y});
   }
 }
 

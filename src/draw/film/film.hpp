@@ -55,6 +55,7 @@ class Film {
   void draw_panel(Picture& picture, std::size_t i, int k, bool is_still) const;
   Picture drawn(int k, bool is_still) const;
   void draw_cell_frames(Picture& picture) const;
+  std::vector<TextLine> note_lines(const Panel& panel, int k, const Rect& row, const TextStyle& style) const;
   void draw_notes(Picture& picture, int k) const;
 
   explicit Film(Composition composed);

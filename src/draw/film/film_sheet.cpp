@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "draw/film/exact_curve.hpp"
 #include "draw/page/wrapped_words.hpp"
 #include "sim/audit.hpp"
 #include "sim/doubts.hpp"
@@ -212,8 +213,10 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, const Plot
     if (const int samples = motion.curve_samples(); samples > 0) end = std::max(end, motion.curve_run().t[std::size_t(samples) - 1]);
   std::vector<StripData> data;
   std::vector<double> shares;
+  const std::optional<StripRun> exact = story.empty() ? exact_run(stage) : std::nullopt;
   for (int i = 0; i < count; ++i) {
     data.push_back(strip_data(runs, std::size_t(i), end, stage.theme));
+    if (exact) add_exact(data.back(), *exact, std::size_t(i), stage.theme);
     shares.push_back(share_of_height(data.back()));
   }
   if (page.video.least_text > 0) shares.clear();  // each has a least height there

@@ -141,8 +141,7 @@ std::string Panel::note(int k, int events) const {
   return gone && events > 0 ? text + away_note(k) : text;
 }
 
-Eigen::Vector3d Panel::farthest_place(int k) const {
-  const Workspace& ws = motion_->pose_at(std::min(k, motion_->samples() - 1));
+Eigen::Vector3d Panel::farthest_place(const Workspace& ws) const {
   Eigen::Vector3d far = chain().end_effector < 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : tip_position(chain(), ws);
   for (int b = 1; b < int(chain().bodies.size()); ++b)
     if (const Eigen::Vector3d& place = pose_of(ws, b).translation(); !(place.norm() <= far.norm())) far = place;  // so of what is no number, too
@@ -150,18 +149,19 @@ Eigen::Vector3d Panel::farthest_place(int k) const {
 }
 
 Point Panel::far_point(int k) const {
-  return camera().project(farthest_place(k));
+  return camera().project(farthest_place(motion_->pose_at(std::min(k, motion_->samples() - 1))));
 }
 
 // How far off it has been by then, where that is far beyond the picture: ", up to 3\u00D710\u2075 m away". On its way from one side
-// to the other it passes near.
+// to the other it passes near. Where plots see it between frames it is seen here, too, so that both tell one number.
 std::string Panel::away_note(int k) const {
   constexpr double kFar = 10;  // times the picture's height
-  for (int i = last_ + 1 + int(farthest_by_.size()); i <= k; ++i) {
-    const double there = farthest_place(i).norm(), before = farthest_by_.empty() ? 0 : farthest_by_.back();
+  const int until = motion_->curve_samples_until(k);
+  for (int i = int(farthest_by_.size()); i < until; ++i) {
+    const double there = farthest_place(motion_->curve_pose_at(i)).norm(), before = farthest_by_.empty() ? 0 : farthest_by_.back();
     farthest_by_.push_back(there > before || std::isnan(there) ? there : before);
   }
-  const double away = farthest_by_[std::size_t(k - last_ - 1)], height = area().height() / camera().scale;
+  const double away = farthest_by_[std::size_t(until - 1)], height = area().height() / camera().scale;
   return std::isfinite(away) && away > kFar * height ? kBeforeAway + format_power(away) + " m away" : "";
 }
 

@@ -83,7 +83,7 @@ class Panel {
   void follow_tip();
   std::string event_note(int k, int events) const;
   std::string away_note(int k) const;
-  Eigen::Vector3d farthest_place(int k) const;
+  Eigen::Vector3d farthest_place(const Workspace& ws) const;
 
   const StagedRun* motion_;
   PanelView view_;
@@ -91,7 +91,7 @@ class Panel {
   ChainLook look_;
   TipPath tip_;
   int last_;
-  mutable std::vector<double> farthest_by_;  // m: of the samples behind last_, as far as they were asked for
+  mutable std::vector<double> farthest_by_;  // m: until each instant of curves, as far as they were asked for
   bool left_ = false;  // the chain left the picture before the run ended
 };
 

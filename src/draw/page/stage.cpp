@@ -59,12 +59,14 @@ StagedRun::StagedRun(const PanelRun& run, int samples, bool counts, bool freezes
   let_rails_reach(skeleton_, counted());
 }
 
-int StagedRun::curve_samples() const {
+int StagedRun::curve_samples_until(int k) const {
   if (samples_ == 0) return samples_;
   constexpr double kSameEnd = 1e-6;  // of a frame: sums of frames are no exact multiples
   const std::vector<double>&frames = run_.trajectory.t, &t = curve_run().t;
-  const double last = frames[std::size_t(samples_) - 1], frame = samples_ > 1 ? last - frames[std::size_t(samples_) - 2] : 0;
-  return int(std::upper_bound(t.begin(), t.end(), last + (1 + kSameEnd) * frame) - t.begin());
+  const auto last = std::size_t(samples_) - 1;
+  const double frame = samples_ > 1 ? frames[last] - frames[last - 1] : 0;
+  const double end = std::size_t(k) < last ? frames[std::size_t(k)] + kSameEnd * frame : frames[last] + (1 + kSameEnd) * frame;
+  return int(std::upper_bound(t.begin(), t.end(), end) - t.begin());
 }
 
 bool StagedRun::is_wild() const {
@@ -78,6 +80,12 @@ void StagedRun::let_rails_reach(Skeleton& skeleton, int samples) const {
 const Workspace& StagedRun::pose_at(int k) const {
   if (k != posed_) compute_kinematics(run_.chain, *ws_, run_.trajectory.q_at(k), run_.trajectory.qd_at(k));
   posed_ = k;
+  return *ws_;
+}
+
+const Workspace& StagedRun::curve_pose_at(int k) const {
+  compute_kinematics(run_.chain, *ws_, curve_run().q_at(k), curve_run().qd_at(k));
+  posed_ = -1;
   return *ws_;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,7 @@ struct PanelRun {
   const Simulation* simulation = nullptr;  // needed where torques or constraint forces are shown
   const BodyShapes* shapes = nullptr;      // drawn instead of bars
   double accurate_until = HUGE_VAL;        // s: until when its method promises what was asked for
+  std::span<const Trajectory> references{};  // two runs of its motion, far more exact, of which one confirms the other; or none
 };
 
 // Pages that have no room for plots beside the scene: what they show stands one above the other.
@@ -62,6 +64,7 @@ class StagedRun {
   const Simulation* simulation() const { return run_.simulation; }
   const BodyShapes* shapes() const { return run_.shapes; }
   double accurate_until() const { return run_.accurate_until; }
+  std::span<const Trajectory> references() const { return run_.references; }
   bool is_constrained() const { return run_.simulation && !run_.simulation->constraints.empty(); }
   bool has_foot() const { return run_.simulation && run_.simulation->events && run_.simulation->events->foot; }
   const std::string& title() const { return title_; }  // of the scene, with what it says of this run
@@ -73,7 +76,8 @@ class StagedRun {
   // What curves of the run show: its samples, and what lies between them where that was kept; as many as there are until the end of the last
   // of its frames.
   const Trajectory& curve_run() const { return run_.trajectory.between ? *run_.trajectory.between : run_.trajectory; }
-  int curve_samples() const;
+  int curve_samples() const { return curve_samples_until(samples_ - 1); }
+  int curve_samples_until(int k) const;  // of the last frame until its end, of those before it until its instant
   int counted() const { return counts_ ? samples_ : 1; }  // that the camera must hold
   bool counts() const { return counts_; }
   bool is_wild() const;  // the run did not come to an end that it should have
@@ -87,6 +91,7 @@ class StagedRun {
 
   // The chain as it stands at sample k, with its rates; good until the next call.
   const Workspace& pose_at(int k) const;
+  const Workspace& curve_pose_at(int k) const;  // at a sample of curves; likewise
   // Lets the box hold some of the counted poses.
   void extend(MotionBox& box) const;
 

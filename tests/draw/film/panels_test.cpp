@@ -229,6 +229,29 @@ TEST_F(PanelFilm, ARunThatLeavesThePictureStandsStillAndSaysWhen) {
   EXPECT_NE(later[0].center.y, last_inside[0].center.y);
 }
 
+// What plots see between frames counts, too.
+TEST_F(PanelFilm, HowFarARunHasBeenIsToldOfItsCurves) {
+  add("calm", sliding);
+  add("wild", growing, true);
+  const int last = kFrames - 1;
+  runs[1]->q.back() = 1e5;
+  EXPECT_THAT(test::words_of(film().frame(last)), HasSubstr("up to 1\u00D710\u2075 m away"));
+  auto curves = std::make_shared<Trajectory>(*runs[1]);
+  curves->q[std::size_t(2 * last - 1)] = 4e6;
+  runs[1]->between = curves;
+  EXPECT_THAT(test::words_of(film().frame(last)), HasSubstr("up to 4\u00D710\u2076 m away"));
+  EXPECT_THAT(test::words_of(film().frame(last - 2)), Not(HasSubstr("m away"))) << "not before it is there";
+}
+
+TEST_F(PanelFilm, HowFarARunHasBeenStandsOnAPageHigherThanWideToo) {
+  add("calm", sliding);
+  add("wild", growing, true);
+  page.video.width = 1080;
+  page.video.height = 1920;
+  runs[1]->q.back() = 1e5;
+  EXPECT_THAT(test::words_of(film().frame(kFrames - 1)), HasSubstr("1\u00D710\u2075 m away"));
+}
+
 // An arrow at the edge points to where it is meanwhile, and its rails are those of the same machine beside it.
 TEST_F(PanelFilm, ARunThatLeftThePictureHasAnArrowTowardsIt) {
   add("first", sliding);

@@ -1,6 +1,8 @@
 // Plots beside the scene of a clip.
 #include "draw/film/plot_strip.hpp"
 
+#include "draw/film/exact_curve.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,6 +107,27 @@ TEST(PlotStrip, RunsThatWentWildSayWhereTheyGo) {
   EXPECT_EQ(heads(drawn({tame, wild}, 2)), 1u);
   EXPECT_EQ(heads(drawn({tame, wild}, 0.5)), 0u) << "not before it leaves";
   EXPECT_EQ(heads(drawn({tame, tame}, 2)), 0u);
+}
+
+// Unless a run lies on it, the exact curve is there, and named where names of runs have no room.
+TEST(PlotStrip, RunsThatErrHaveTheExactCurveBesideThem) {
+  const Fonts fonts;
+  const auto exact = run_of("exact", false, {0, 1, 2}), far = run_of("a", false, {0, 1.5, 3}), wild = run_of("b", true, {0, 50, 3e8});
+  const auto strip_of = [&](const std::vector<StripRun>& runs, const StripRun& truth, double end = 2) {
+    StripData data = strip_data(runs, 0, end, light_theme());
+    add_exact(data, truth, 0, light_theme());
+    return data;
+  };
+  const StripData data = strip_of({far, wild}, exact);
+  ASSERT_EQ(data.curves.size(), 3u);
+  EXPECT_EQ(data.curves.back().label, "exact");
+  EXPECT_EQ(data.curves.back().style.color, light_theme().ink);
+  EXPECT_EQ(strip_of({far, exact}, exact).curves.size(), 2u) << "one of them is exact";
+  EXPECT_EQ(strip_of({far, wild}, exact, 4).curves.back().label, "exact until 2 s");
+  Picture picture;
+  PlotStrip(data, {0.1, 0.1, 0.55, 0.4}, style_of(fonts)).draw_static(picture);
+  EXPECT_NE(test::words_of(picture).find("exact"), std::string::npos);
+  EXPECT_EQ(test::words_of(picture).find("to 3"), std::string::npos) << "that had no room";
 }
 
 // What hardly changes is shown with zero, but where runs differ in that it changes.
