@@ -16,6 +16,7 @@
 #include "core/json.hpp"
 #include "encode/png.hpp"
 #include "scene/text/read_scene.hpp"
+#include "support/picture_compare.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -230,6 +231,37 @@ TEST(Readme, SheetShowsEveryScene) {
     ++scenes;
   }
   EXPECT_EQ(std::count(words.begin(), words.end(), ';') + 1, scenes) << remedy;
+}
+
+// CHAINREEL_UPDATE_GOLDEN=1 makes them anew. What `chart` measures is never the same twice: rr_free_chart.png is made by hand, by
+// `chainreel chart assets/scenes/rr_free.yaml --width 1280 --height 720`.
+TEST(Gallery, PicturesAreWhatTheProgramDrawsToday) {
+  struct Made {
+    std::string name;
+    Words command;
+  };
+  Made sheet{"sheet", {"sheet", "--width", "1600", "--height", "1120", "--text-scale", "0.8"}};
+  std::vector<std::string> scenes;
+  for (const auto& entry : fs::directory_iterator("assets/scenes")) scenes.push_back(entry.path().string());
+  std::ranges::sort(scenes);
+  sheet.command.insert(sheet.command.end(), scenes.begin(), scenes.end());
+  const Words size{"--width", "1280", "--height", "720"};
+  const std::vector<Made> all = {
+      sheet,
+      {"arm_ellipsoid", with({"snapshot", "assets/scenes/arm_ellipsoid.yaml", "--at", "2s"}, size)},
+      {"rr_ellipse", with({"snapshot", "assets/scenes/rr_ellipse.yaml", "--at", "1.2s"}, size)},
+      {"ellipse_poses", with({"ellipse", "models/rr.urdf", "--pose", "0,90deg", "--pose", "0,150deg", "--pose", "0,0"}, size)},
+      {"pp_spring_stability", with({"stability", "assets/scenes/pp_spring.yaml", "--x", "step=0.02:0.4:96", "--y", "parameters.k=25:400:60",
+                                    "--set", "torque=[0, -k * y_G]", "--set", "parameters.k=100"}, size)},
+  };
+  const TemporaryFolder folder;
+  for (const Made& one : all) {
+    const std::string kept = "assets/gallery/" + one.name + ".png", now = folder.file(one.name + ".png");
+    const ProgramResult result = run_program(with(one.command, {"-o", now, "--quiet"}));
+    ASSERT_EQ(result.status, 0) << one.name << "\n" << result.err;
+    if (std::getenv("CHAINREEL_UPDATE_GOLDEN")) fs::copy_file(now, kept, fs::copy_options::overwrite_existing);
+    EXPECT_TRUE(pictures_agree(read_png(now), read_png(kept), {}, "gallery_" + one.name)) << one.name;
+  }
 }
 
 // By the names of joints, with a picture's name in front or without; 30 for 30deg is said.

@@ -170,6 +170,8 @@ std::vector<EndLabel> labels_of(const PlotFrame& frame, const WorkPrecision& dat
   return labels;
 }
 
+enum class PanelNames { none, beside, inside };  // of the methods that have colours
+
 // Panels from left to right; each but the last is followed by room for its labels where they are not shared. One below the other on
 // pages that are higher than wide.
 struct Columns {
@@ -198,9 +200,8 @@ Columns columns_of(const Rect& area, std::size_t count, double labels) {
   return columns;
 }
 
-// Returns whether it has slope triangles.
-bool draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, ChartCost cost,
-                bool with_labels, const ChartLook& look) {
+DrawnMarks draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, ChartCost cost,
+                PanelNames names, const ChartLook& look) {
   const PlotStyle style = look.plot_style();
   const Axis costs = cost_axis(data, cost, area.width(), style);
   const double width =
@@ -210,11 +211,11 @@ bool draw_panel(Picture& picture, const Rect& area, const WorkPrecision& data, C
   draw_floor(picture, frame, data, look);
   draw_axes(picture, frame, style);
   draw_floor_words(picture, frame, data, look);
-  const bool triangles = draw_marks(picture, frame, data, cost, look);
-  if (with_labels)
+  const DrawnMarks drawn = draw_marks(picture, frame, data, cost, names == PanelNames::inside, look);
+  if (names == PanelNames::beside)
     draw_end_labels(picture, frame, labels_of(frame, data, cost, look), frame.box.x1 + kLabelGap, style);
   draw_curves(picture, frame, data, cost, look);
-  return triangles;
+  return drawn;
 }
 
 std::string footer_of(const WorkPrecision& data, bool triangles) {
@@ -255,21 +256,26 @@ Picture work_precision_chart(const WorkPrecision& data, std::span<const ChartCos
   for (const ChartCurve& curve : data.curves)
     if (curve.is_lit) methods.push_back(title_of(curve));
   const std::span<const ChartCost> panels = readable_panels(all_panels, methods, look);
+  // On a small page the only panel has the names of its curves inside, where all have room there: beside it they would take a third of the width.
+  bool inside = look.is_small && panels.size() == 1;
   const auto draw = [&](bool explains_triangles, bool& triangles) {
     Picture picture;
     const ChartText text{.title = data.title, .subtitle = data.subtitle, .footer = footer_of(data, explains_triangles), .needed = kGuidesWords, .is_in_caption = true};
     const Rect area = draw_chart_page(picture, text, look);
     require_room_for_names(methods.size(), area, look);
-    const Columns columns = columns_of(area, panels.size(), end_labels_width(methods, look.plot_style()));
+    const Columns columns = columns_of(area, panels.size(), inside ? -kLabelGap : end_labels_width(methods, look.plot_style()));
     triangles = false;
     for (std::size_t i = 0; i < panels.size(); ++i) {
-      const bool with_labels = !columns.shared_labels || i + 1 == panels.size();
-      triangles |= draw_panel(picture, columns.panels[i], data, panels[i], with_labels, look);
+      const PanelNames names = inside ? PanelNames::inside : !columns.shared_labels || i + 1 == panels.size() ? PanelNames::beside : PanelNames::none;
+      const DrawnMarks drawn = draw_panel(picture, columns.panels[i], data, panels[i], names, look);
+      triangles |= drawn.triangles;
+      inside = inside && drawn.names_stand;
     }
     return picture;
   };
   // Whether they are explained decides on the room that they have.
   bool triangles = false;
+  if (inside) draw(true, triangles);  // finds out whether they have room
   const Picture explained = draw(true, triangles);
   if (triangles) return as_page(explained, look);
   const Picture plain = draw(false, triangles);

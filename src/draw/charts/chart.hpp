@@ -79,9 +79,13 @@ std::optional<double> least_cost(const WorkPrecision& data, ChartCost cost, doub
 // for each order whose slope some curve really shows, a ring around the choice of `auto`, the settings at the ends of curves in
 // colour, the names of grey ones. Words and triangles
 // stand where no curve crosses them, or are left out; the word of the choice always stands.
-// Returns whether there are triangles.
-bool draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
-                const ChartLook& look);
+// With `names_inside` the names of curves in colour stand beside them, too.
+struct DrawnMarks {
+  bool triangles = false;   // there are some
+  bool names_stand = true;  // all of those that are wanted inside
+};
+DrawnMarks draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, bool names_inside,
+                      const ChartLook& look);
 
 // A failed run: the method's marker and a cross on the right edge, at its cost.
 void draw_failure(Picture& picture, const PlotFrame& frame, double cost, const CurveStyle& style,

@@ -258,12 +258,13 @@ void draw_choice(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
 
 // --- words at the ends of curves ---
 
-// Beside a point, where neither curves nor other words are; else nowhere. Returns whether it stands.
-bool draw_word_beside(Picture& picture, const std::string& text, Color color, Point at, Obstacles& obstacles, const ChartLook& look) {
+// So far from a point, where neither curves nor other words are; else nowhere. Returns whether it stands.
+constexpr double kNear = 2 * kClearance;
+bool draw_word_beside(Picture& picture, const std::string& text, Color color, Point at, Obstacles& obstacles, const ChartLook& look, double off = kNear) {
   if (text.empty()) return true;
   const double em = look.plot_style().text(size::kTick);
   const TextLine line = lay_out_text(*look.fonts, text, {Face::label, em, color, Align::left});
-  const double wide = line.advance, high = kCapHeight * em, off = 2 * kClearance;
+  const double wide = line.advance, high = kCapHeight * em;
   for (const Point corner : {Point{off, -high / 2}, {-off - wide, -high / 2}, {-wide / 2, off}, {-wide / 2, -off - high}, {off, off},
                              {off, -off - high}, {-off - wide, off}, {-off - wide, -off - high}}) {
     const Point p = at + corner;
@@ -276,6 +277,40 @@ bool draw_word_beside(Picture& picture, const std::string& text, Color color, Po
   return false;
 }
 
+// Of a curve the points that a frame shows, the most exact one first.
+std::vector<const ChartPoint*> shown_points(const PlotFrame& frame, const ChartCurve& curve, ChartCost cost) {
+  std::vector<const ChartPoint*> points;
+  for (const ChartPoint& point : curve.points)
+    if (!point.failed && !point.is_apart && point.error >= frame.x.low && frame.can_show({point.error, cost_of(point, cost)})) points.push_back(&point);
+  std::ranges::stable_sort(points, {}, &ChartPoint::error);
+  return points;
+}
+
+// Beside one of its points. Returns whether it stands.
+bool draw_name(Picture& picture, const PlotFrame& frame, const ChartCurve& curve, ChartCost cost, Color color, Obstacles& obstacles, const ChartLook& look, double off = kNear) {
+  const std::string name = without_formulas(curve.title.empty() ? curve.method : curve.title);
+  const std::vector<const ChartPoint*> points = shown_points(frame, curve, cost);
+  return points.empty() || std::ranges::any_of(points, [&](const ChartPoint* point) {
+           return draw_word_beside(picture, name, color, frame.at({point->error, cost_of(*point, cost)}), obstacles, look, off);
+         });
+}
+
+Color color_of(const WorkPrecision& data, std::size_t curve, const ChartLook& look) {
+  const int index = data.curves[curve].look;
+  return curve_style(index < 0 ? int(curve) : index, *look.theme).color;
+}
+
+// Colour ties them to curves from a line away, too: beside a flat one no nearer place is free. Returns whether all stand.
+bool draw_names_in_colour(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, Obstacles& obstacles, const ChartLook& look) {
+  const double em = look.plot_style().text(size::kTick);
+  bool all = true;
+  for (std::size_t k = 0; k < data.curves.size(); ++k)
+    all &= !data.curves[k].is_lit || std::ranges::any_of(std::array{kNear, kNear + 0.4 * em, kNear + em}, [&](double off) {
+      return draw_name(picture, frame, data.curves[k], cost, color_of(data, k, look), obstacles, look, off);
+    });
+  return all;
+}
+
 // With which steps or tolerances highlighted curves begin and end; and the names of the others, since
 // grey does not tell them apart, as near to their most exact ends as there is room.
 void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, Obstacles& obstacles,
@@ -283,26 +318,17 @@ void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecisio
   for (const bool lit : {true, false})
     for (std::size_t k = 0; k < data.curves.size(); ++k) {
       const ChartCurve& curve = data.curves[k];
-      const ChartPoint *first = nullptr, *last = nullptr;
-      for (const ChartPoint& point : curve.points) {
-        if (point.failed || point.is_apart || !(point.error >= frame.x.low) || !frame.can_show({point.error, cost_of(point, cost)})) continue;
-        if (!first || point.error < first->error) first = &point;
-        if (!last || point.error > last->error) last = &point;
-      }
-      if (curve.is_lit != lit || !first) continue;
-      const auto place = [&](const ChartPoint& point) { return frame.at({point.error, cost_of(point, cost)}); };
+      const std::vector<const ChartPoint*> points = shown_points(frame, curve, cost);
+      if (curve.is_lit != lit || points.empty()) continue;
       if (!lit) {
-        std::vector<const ChartPoint*> points;
-        for (const ChartPoint& point : curve.points)
-          if (!point.failed && !point.is_apart && point.error >= first->error && frame.can_show({point.error, cost_of(point, cost)})) points.push_back(&point);
-        std::ranges::stable_sort(points, {}, &ChartPoint::error);
-        const std::string name = without_formulas(curve.title.empty() ? curve.method : curve.title);
-        std::ranges::any_of(points, [&](const ChartPoint* point) { return draw_word_beside(picture, name, look.theme->muted, place(*point), obstacles, look); });
+        draw_name(picture, frame, curve, cost, look.theme->muted, obstacles, look);
         continue;
       }
-      const Color color = curve_style(curve.look < 0 ? int(k) : curve.look, *look.theme).color;
-      draw_word_beside(picture, setting_of(first->label), color, place(*first), obstacles, look);
-      if (last != first) draw_word_beside(picture, setting_of(last->label), color, place(*last), obstacles, look);
+      const auto draw_setting = [&](const ChartPoint& point) {
+        draw_word_beside(picture, setting_of(point.label), color_of(data, k, look), frame.at({point.error, cost_of(point, cost)}), obstacles, look);
+      };
+      draw_setting(*points.front());
+      if (points.size() > 1) draw_setting(*points.back());
     }
 }
 
@@ -349,16 +375,18 @@ void light_curves(WorkPrecision& data, std::span<const ChartCost> panels, const 
   tell_colours_apart(looks);
 }
 
-bool draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost,
-                const ChartLook& look) {
+DrawnMarks draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, bool names_inside,
+                      const ChartLook& look) {
   const std::vector<Point> best = best_curve(frame, data, cost);
   draw_guides(picture, frame, best, look);
   Obstacles obstacles = obstacles_of(frame, data, cost);
   draw_choice(picture, frame, data, cost, obstacles, look);
-  const bool triangles = draw_slopes(picture, frame, data, cost, obstacles, look);
+  DrawnMarks drawn;
+  if (names_inside) drawn.names_stand = draw_names_in_colour(picture, frame, data, cost, obstacles, look);
+  drawn.triangles = draw_slopes(picture, frame, data, cost, obstacles, look);
   draw_guide_words(picture, frame, best, obstacles, look);
   draw_end_words(picture, frame, data, cost, obstacles, look);
-  return triangles;
+  return drawn;
 }
 
 void draw_failure(Picture& picture, const PlotFrame& frame, double cost, const CurveStyle& style,

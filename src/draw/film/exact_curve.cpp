@@ -95,7 +95,7 @@ void add_exact(StripData& data, const StripRun& exact, std::size_t i, const Them
     if (curve.is_bound) continue;
     StripCurve line{count > 1 ? curve.name + ", " + kName : kName, {theme.ink, theme.lines * kExactLine, Dash(part % 4), Marker::none}, {}, true};
     if (ends_early) line.label += " until " + format_significant(t.back(), 2) + " s";
-    line.keeps_name = true;
+    line.words_above = "thin: " + line.label;
     for (std::size_t k = 0; k < std::min(t.size(), curve.y.size()) && t[k] <= data.end + kSameInstant; ++k) line.points.push_back({t[k], curve.y[k]});
     data.curves.push_back(std::move(line));
   }

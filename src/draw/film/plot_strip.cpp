@@ -206,11 +206,12 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
   std::vector<std::string> labels = labels_of(data_);
   // The names of runs stand above their panels, too, in the colours of the curves.
   const double most = data_.of_runs ? kMostLabels : kMostOwnLabels;
-  for (const bool is_kept : {false, true}) {
-    if (labels.empty() || end_labels_width(labels, style_) <= most * area.width()) break;
-    for (StripCurve& curve : data_.curves)
-      if (curve.keeps_name == is_kept) curve.label.clear();
-    labels = labels_of(data_);
+  if (!labels.empty() && end_labels_width(labels, style_) > most * area.width()) {
+    for (StripCurve& curve : data_.curves) {
+      curve.label.clear();
+      if (data_.note.empty()) data_.note = curve.words_above;
+    }
+    labels.clear();
   }
   Rect inner = area;
   if (!labels.empty()) inner.x1 -= end_labels_width(labels, style_) + kPlotLabelGap;

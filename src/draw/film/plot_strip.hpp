@@ -16,7 +16,7 @@ struct StripCurve {
   CurveStyle style;
   std::vector<Point> points;  // (t, y), t rising; a strip keeps those without which it looks the same
   bool decides = true;        // on the range of the axis; curves of runs that went wild do not
-  bool keeps_name = false;    // nothing else on the page says what it is
+  std::string words_above{};  // above the frame where names have no room: what no title of a panel says
   bool covers = false;        // it lies on one before it, which is seen through its gaps
   std::vector<Point> marks{};  // of the points, where a step of the run ends and is seen
 };

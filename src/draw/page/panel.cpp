@@ -138,7 +138,7 @@ std::string Panel::note(int k, int events) const {
   if (!left || k <= last_) return event_note(k, events);
   const bool gone = left_ || motion_->trajectory().status == RunStatus::diverged;
   const std::string text = (gone ? "left the picture at " : "ended at ") + time_text(*left);
-  return gone && events > 0 ? text + away_note(k) : text;
+  return gone && events > 0 ? text + away_note() : text;
 }
 
 Eigen::Vector3d Panel::farthest_place(const Workspace& ws) const {
@@ -152,17 +152,17 @@ Point Panel::far_point(int k) const {
   return camera().project(farthest_place(motion_->pose_at(std::min(k, motion_->samples() - 1))));
 }
 
-// How far off it has been by then, where that is far beyond the picture: ", up to 3\u00D710\u2075 m away". On its way from one side
-// to the other it passes near. Where plots see it between frames it is seen here, too, so that both tell one number.
-std::string Panel::away_note(int k) const {
+// How far off it comes to be, where that is far beyond the picture: ", up to 3\u00D710\u2075 m away". It is the number that plots tell, which
+// see it between frames, and the same from the instant on at which it left: on its way from one side to the other it passes near.
+std::string Panel::away_note() const {
   constexpr double kFar = 10;  // times the picture's height
-  const int until = motion_->curve_samples_until(k);
-  for (int i = int(farthest_by_.size()); i < until; ++i) {
-    const double there = farthest_place(motion_->curve_pose_at(i)).norm(), before = farthest_by_.empty() ? 0 : farthest_by_.back();
-    farthest_by_.push_back(there > before || std::isnan(there) ? there : before);
+  if (!farthest_) {
+    farthest_ = 0;
+    for (int i = 0; i < motion_->curve_samples(); ++i)
+      if (const double there = farthest_place(motion_->curve_pose_at(i)).norm(); !(there <= *farthest_)) farthest_ = there;  // so what is no number, too
   }
-  const double away = farthest_by_[std::size_t(until - 1)], height = area().height() / camera().scale;
-  return std::isfinite(away) && away > kFar * height ? kBeforeAway + format_power(away) + " m away" : "";
+  const double height = area().height() / camera().scale;
+  return std::isfinite(*farthest_) && *farthest_ > kFar * height ? kBeforeAway + format_power(*farthest_) + " m away" : "";
 }
 
 }  // namespace chainreel

@@ -48,7 +48,7 @@ struct PanelView {
 
 // A motion as a camera sees it: until when it is in the picture, and where its end effector goes on the page.
 inline constexpr char kBetweenEvents[] = ";  ";
-inline constexpr char kBeforeAway[] = ", up to ";  // how far off a run is that left the picture
+inline constexpr char kBeforeAway[] = ", up to ";  // how far off a run comes to be that left the picture
 
 class Panel {
  public:
@@ -69,7 +69,7 @@ class Panel {
   ChainDrawing drawing(const ChainLook& look) const;
   ChainDrawing drawing() const { return drawing(look_); }
 
-  // "left the picture at t = 1.24 s, 3\u00D710\u2075 m away" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
+  // "left the picture at t = 1.24 s, up to 3\u00D710\u2075 m away" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
   std::string note(int k, int events = 2) const;  // of several kBetweenEvents
   std::string title() const { return motion_->title(); }
   // On the page, which it may be far beyond: the place of the chain that is farthest from the world's origin at a sample.
@@ -82,7 +82,7 @@ class Panel {
   bool is_inside(const Workspace& ws) const;
   void follow_tip();
   std::string event_note(int k, int events) const;
-  std::string away_note(int k) const;
+  std::string away_note() const;
   Eigen::Vector3d farthest_place(const Workspace& ws) const;
 
   const StagedRun* motion_;
@@ -91,7 +91,7 @@ class Panel {
   ChainLook look_;
   TipPath tip_;
   int last_;
-  mutable std::vector<double> farthest_by_;  // m: until each instant of curves, as far as they were asked for
+  mutable std::optional<double> farthest_;  // m, as soon as it was asked for
   bool left_ = false;  // the chain left the picture before the run ended
 };
 

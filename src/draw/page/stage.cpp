@@ -59,14 +59,12 @@ StagedRun::StagedRun(const PanelRun& run, int samples, bool counts, bool freezes
   let_rails_reach(skeleton_, counted());
 }
 
-int StagedRun::curve_samples_until(int k) const {
+int StagedRun::curve_samples() const {
   if (samples_ == 0) return samples_;
   constexpr double kSameEnd = 1e-6;  // of a frame: sums of frames are no exact multiples
   const std::vector<double>&frames = run_.trajectory.t, &t = curve_run().t;
-  const auto last = std::size_t(samples_) - 1;
-  const double frame = samples_ > 1 ? frames[last] - frames[last - 1] : 0;
-  const double end = std::size_t(k) < last ? frames[std::size_t(k)] + kSameEnd * frame : frames[last] + (1 + kSameEnd) * frame;
-  return int(std::upper_bound(t.begin(), t.end(), end) - t.begin());
+  const double last = frames[std::size_t(samples_) - 1], frame = samples_ > 1 ? last - frames[std::size_t(samples_) - 2] : 0;
+  return int(std::upper_bound(t.begin(), t.end(), last + (1 + kSameEnd) * frame) - t.begin());
 }
 
 bool StagedRun::is_wild() const {

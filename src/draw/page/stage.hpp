@@ -76,8 +76,7 @@ class StagedRun {
   // What curves of the run show: its samples, and what lies between them where that was kept; as many as there are until the end of the last
   // of its frames.
   const Trajectory& curve_run() const { return run_.trajectory.between ? *run_.trajectory.between : run_.trajectory; }
-  int curve_samples() const { return curve_samples_until(samples_ - 1); }
-  int curve_samples_until(int k) const;  // of the last frame until its end, of those before it until its instant
+  int curve_samples() const;
   int counted() const { return counts_ ? samples_ : 1; }  // that the camera must hold
   bool counts() const { return counts_; }
   bool is_wild() const;  // the run did not come to an end that it should have

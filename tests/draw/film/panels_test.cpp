@@ -240,7 +240,9 @@ TEST_F(PanelFilm, HowFarARunHasBeenIsToldOfItsCurves) {
   curves->q[std::size_t(2 * last - 1)] = 4e6;
   runs[1]->between = curves;
   EXPECT_THAT(test::words_of(film().frame(last)), HasSubstr("up to 4\u00D710\u2076 m away"));
-  EXPECT_THAT(test::words_of(film().frame(last - 2)), Not(HasSubstr("m away"))) << "not before it is there";
+  EXPECT_THAT(test::words_of(film().frame(last - 2)), HasSubstr("up to 4\u00D710\u2076 m away")) << "one number for all of the clip";
+  curves->q[std::size_t(2 * last - 1)] = runs[1]->q.back() = 1;
+  EXPECT_THAT(test::words_of(film().frame(last)), Not(HasSubstr("m away"))) << "negative control: it stays near";
 }
 
 TEST_F(PanelFilm, HowFarARunHasBeenStandsOnAPageHigherThanWideToo) {
