@@ -202,7 +202,7 @@ TEST(Plots, OfMethodsThatErrShowWhatIsExact) {
   const auto words_of = [](const std::string& name, const std::vector<std::string>& more) {
     const PreparedFilm film = load_film("assets/scenes/" + name + ".yaml", more);
     const Runs runs(film);
-    return test::words_of(runs.pictures(1, Fonts()).static_layer());
+    return test::words_of(runs.pictures(runs.clock().frame_count(), Fonts()).static_layer());
   };
   EXPECT_THAT(words_of("big_steps", {}), testing::HasSubstr("exact"));
   EXPECT_THAT(words_of("big_steps", {"compare.1.start.q=[0, 0.5]"}), testing::Not(testing::HasSubstr("exact"))) << "two motions";

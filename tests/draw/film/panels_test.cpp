@@ -241,7 +241,7 @@ TEST_F(PanelFilm, HowFarARunHasBeenIsToldOfItsCurves) {
   runs[1]->between = curves;
   EXPECT_THAT(test::words_of(film().frame(last)), HasSubstr("up to 4\u00D710\u2076 m away"));
   EXPECT_THAT(test::words_of(film().frame(last - 2)), HasSubstr("up to 4\u00D710\u2076 m away")) << "one number for all of the clip";
-  curves->q[std::size_t(2 * last - 1)] = runs[1]->q.back() = 1;
+  for (double& q : curves->q) q = std::clamp(q, -3.0, 3.0);
   EXPECT_THAT(test::words_of(film().frame(last)), Not(HasSubstr("m away"))) << "negative control: it stays near";
 }
 

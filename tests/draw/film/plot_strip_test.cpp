@@ -125,7 +125,7 @@ TEST(PlotStrip, RunsThatErrHaveTheExactCurveBesideThem) {
   EXPECT_EQ(strip_of({far, exact}, exact).curves.size(), 2u) << "one of them is exact";
   EXPECT_EQ(strip_of({far, wild}, exact, 4).curves.back().label, "exact until 2 s");
   Picture picture;
-  PlotStrip(data, {0.1, 0.1, 0.65, 0.4}, style_of(fonts)).draw_static(picture);
+  PlotStrip(data, {0.1, 0.1, 0.5, 0.4}, style_of(fonts)).draw_static(picture);
   EXPECT_NE(test::words_of(picture).find("thin: exact"), std::string::npos);
   EXPECT_EQ(test::words_of(picture).find("to 3"), std::string::npos) << "that had no room";
 }
