@@ -87,7 +87,7 @@ constexpr double kNamesPad = 0.35;     // likewise, at both sides: a sheet's cel
 constexpr double kSmallerNames = 0.75;  // of Video::panel_names: smaller they are cut
 constexpr int kNameLines = 3;           // then they are cut
 constexpr int kTitleLines = 2;          // of a film: more would be a text
-constexpr double kMostOfNames = 0.25;   // of a sheet's cell: the rest is for what they name
+constexpr double kMostOfNames = 0.32;   // of a sheet's cell: the rest is for what they name
 
 double full_title_size(const Scene& page) {
   return page.video.panel_names > 0 ? page.video.panel_names : scaled(size::kSymbol, page.text_scale);

@@ -1,4 +1,5 @@
 #include "draw/page/sheet.hpp"
+#include "draw/page/wrapped_words.hpp"
 
 #include <gmock/gmock.h>
 
@@ -165,6 +166,17 @@ TEST(MetreBar, IsTheLargestRoundLengthWithinAQuarterOfTheScene) {
   EXPECT_DOUBLE_EQ(metre_bar_length(0.9, 1.69), 0.2);  // 0.47 m
   EXPECT_DOUBLE_EQ(metre_bar_length(0.08, 1.69), 5);   // 5.28 m
   EXPECT_DOUBLE_EQ(metre_bar_length(0.4225, 1.69), 1);
+}
+
+TEST(WrappedWords, AWordWiderThanALineEndsBehindItsHyphen) {
+  const Fonts fonts;
+  const TextStyle style{Face::label_bold, 0.03, light_theme().ink};
+  const auto width_of = [&](const std::string& words) { return lay_out_words(fonts, words, style).advance; };
+  const std::string name = "semi-implicit Euler";
+  EXPECT_LT(lay_out_within(fonts, name, style, width_of("implicit")).box.width(), 1.02 * width_of("implicit"));
+  // Negative control: where it has room it is whole, and a formula's minus is none.
+  EXPECT_NEAR(lay_out_within(fonts, name, style, width_of(name)).box.width(), width_of(name), 0.1 * style.size);
+  EXPECT_GT(lay_out_within(fonts, "$a-b-c-d$", style, width_of("$a-b$")).box.width(), 1.5 * width_of("$a-b$"));
 }
 
 }  // namespace
