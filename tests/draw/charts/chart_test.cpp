@@ -310,6 +310,22 @@ TEST(Chart, OnPaperIsMostlyAPlot) {
   EXPECT_TRUE(says(picture, "time per run"));
 }
 
+// On a paper's column names of curves in colour beside the only panel would leave it two thirds of the width.
+TEST(Chart, OnSmallPagesHasTheNamesOfCurvesInsideWhereTheyHaveRoom) {
+  WorkPrecision data = sample_work_precision();
+  light_curves(data, kSeconds, {"taylor"});
+  const auto frame_end = [&](bool is_small) {
+    ChartLook look = look_of(light_theme());
+    look.is_small = is_small;
+    double end = 0;
+    for (const Capsule& line : all_of<Capsule>(work_precision_chart(data, kSeconds, look)))
+      if (line.paint.fill == light_theme().rule) end = std::max({end, line.a.x, line.b.x});
+    return end;
+  };
+  EXPECT_GT(frame_end(true), 0.95 * 16.0 / 9.0) << "but for the margin and half of the last number";
+  EXPECT_LT(frame_end(false), 0.9 * 16.0 / 9.0) << "negative control: a slide has them beside";
+}
+
 TEST(Chart, SlopesAreShownOnlyWhereACurveHasThem) {
   const auto triangles = [](const WorkPrecision& data) {
     const Color color = light_theme().muted.faded(0.12);
