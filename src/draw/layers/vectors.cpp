@@ -174,7 +174,8 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
   std::vector<ScaleEntry> entries;
   for (const VectorKind kind : shown) {
     const VectorScale scale = scales.of(kind);
-    const std::string name = named || kind == VectorKind::push ? name_of(kind) + " " : "";
+    // Those of ties come and go: a number whose arrow is not there needs its name.
+    const std::string name = named || kind == VectorKind::push || kind == VectorKind::constraint ? name_of(kind) + " " : "";
     const auto mark = kind == VectorKind::torque       ? ScaleEntry::Mark::turn
                       : kind == VectorKind::constraint ? ScaleEntry::Mark::dashed_arrow
                                                        : ScaleEntry::Mark::arrow;
