@@ -10,6 +10,11 @@
 
 namespace chainreel {
 
+// Of samples from one to the next, on average.
+inline double distance_of(std::span<const double> times) {
+  return times.size() > 1 ? (times.back() - times.front()) / double(times.size() - 1) : std::numeric_limits<double>::infinity();
+}
+
 class SampleInstants {
  public:
   // `times` rising. `apart`: s, of those between; 0: there are none. `beside`: s, how near to a corner it is looked at.

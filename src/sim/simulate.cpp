@@ -132,8 +132,7 @@ class Run {
     append(t, q_, qd_, simulation_.motion_only ? 0 : work_.at(system_, *integrator_, t, q_));
   }
 
-  // t lies in the last step. Nothing that is told of the run depends on it. The samples are kept beside it from the first such instant on:
-  // long films have none.
+  // t lies in the last step. Nothing that is told of the run depends on it. The samples are kept beside it from the first such instant on.
   void sample_between(double t) {
     if (!between_) {
       between_.emplace();
@@ -461,6 +460,7 @@ class Run {
 Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop,
                     const StepObserver& observer, double between) {
   check_ready(simulation, times);
+  if (between >= distance_of(times)) between = 0;  // of long films samples are nearer to one another
   Run run(simulation, times.size());
   SampleInstants instants(times, between, std::max(kBesideCorner * between, 4 * same_instant(simulation)));
   while (instants.next(0)) run.sample_start();

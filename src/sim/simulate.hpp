@@ -84,7 +84,7 @@ using StepObserver = std::function<void(double t, ConstVec q, ConstVec qd, doubl
 // Samples at `times` (rising, within [0, duration]) on the method's dense output; t = 0 and the ends of steps
 // give the steps' own values. Never throws for what happens during the run: see
 // Trajectory::status; for what was not ready, see check_ready. Samples end where the run ended; where an event ended it, the last one stands at its
-// instant. `between`, s: keeps the run at more instants, some so far apart between the samples, too (Trajectory::between); 0: does not.
+// instant. `between`, s: keeps the run at more instants, some so far apart between the samples, too (Trajectory::between); 0, or more than samples are apart: does not.
 Trajectory simulate(const Simulation& simulation, std::span<const double> times, const StopRequest& stop = {},
                     const StepObserver& observer = {}, double between = 0);
 

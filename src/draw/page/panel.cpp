@@ -9,6 +9,13 @@
 
 namespace chainreel {
 
+void TipPath::reserve(std::size_t frames) {
+  t_.reserve(frames);
+  place_.reserve(frames);
+  speed_.reserve(frames);
+  gap_.reserve(frames);
+}
+
 void TipPath::add(double t, Point place, Point speed) {
   const bool gap = !(is_drawable(place) && std::isfinite(speed.x) &&
                      std::isfinite(speed.y));
@@ -102,6 +109,7 @@ void Panel::find_last_inside() {
 
 void Panel::follow_tip() {
   if (chain().end_effector < 0) return;
+  tip_.reserve(std::size_t(last_) + 1);
   for (int k = 0; k <= last_; ++k) {
     const Workspace& ws = motion_->pose_at(k);
     const Eigen::Vector3d tip = tip_position(chain(), ws);

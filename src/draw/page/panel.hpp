@@ -19,6 +19,7 @@ class TipPath {
   // `speed` in page units a second. A place off the page by far, or not finite, is a gap: no trail crosses
   // it.
   void add(double t, Point place, Point speed);
+  void reserve(std::size_t frames);
 
   int size() const { return int(t_.size()); }
   double time(int k) const { return t_[std::size_t(k)]; }

@@ -114,7 +114,7 @@ struct Trajectory {
   int ending_event = -1;  // the index of the one that ended the run
 
   // The same run at these samples, between them, and just before and behind the instants where its torques jump: of curves that
-  // are seen. Between samples its work is no number. Null where it was not asked for, and where nothing lies between.
+  // are seen. Between samples its work is no number. Null where it was not asked for, and where samples lie nearer to one another.
   std::shared_ptr<const Trajectory> between;
 
   int size() const { return int(t.size()); }
