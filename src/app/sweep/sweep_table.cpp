@@ -351,8 +351,9 @@ class Copies {
   explicit Copies(const SweepTableJob& job) {
     for (std::size_t i = 1; i < job.paths.size(); ++i) files_.push_back(std::make_unique<OutputFile>(job.paths[i], job.overwrite));
   }
+  bool any() const { return !files_.empty(); }
   void write(const std::string& csv) {
-    if (files_.empty()) return;
+    if (!any()) return;
     const DataTable table = table_of_csv(csv);
     for (const auto& file : files_) write_whole(*file, table_bytes(table, table_format_of(file->path())));
   }
@@ -422,7 +423,8 @@ SweepOutcome write_sweep_table(const SweepTableJob& job) {
         return table_bytes(table_of_csv(csv), format);
       });
   }
-  if (table_format_of(path) == TableFormat::csv) copies.write(read_plain_file(path, kLargestGrown));
+  // Read only if need be: rows are written as they come, and a large table is nowhere whole in memory.
+  if (copies.any() && table_format_of(path) == TableFormat::csv) copies.write(read_plain_file(path, kLargestGrown));
   SweepOutcome all = seen.outcome();
   all.done = outcome.done;
   all.skipped = outcome.skipped;
