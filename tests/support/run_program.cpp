@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -103,8 +104,8 @@ bool read_until(Clock::time_point deadline, Pipe& out, Pipe& err, ProgramResult&
 }
 
 // A program may close its output and go on, so its end has the same time limit.
-bool wait_until(Clock::time_point deadline, pid_t pid, int& status) {
-  while (waitpid(pid, &status, WNOHANG) == 0) {
+bool wait_until(Clock::time_point deadline, pid_t pid, int& status, rusage& usage) {
+  while (wait4(pid, &status, WNOHANG, &usage) == 0) {
     if (Clock::now() > deadline) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -139,11 +140,13 @@ ProgramResult run_command(const std::vector<std::string>& command, const RunOpti
                                            std::chrono::duration<double>(options.timeout_s));
   ProgramResult result;
   int status = 0;
-  if (!read_until(deadline, out, err, result) || !wait_until(deadline, pid, status)) {
+  rusage usage = {};
+  if (!read_until(deadline, out, err, result) || !wait_until(deadline, pid, status, usage)) {
     result.timed_out = true;
     kill(-pid, SIGKILL);
     waitpid(pid, &status, 0);
   }
+  result.peak = usage.ru_maxrss;
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
 }

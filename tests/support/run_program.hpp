@@ -19,6 +19,7 @@ struct ProgramResult {
   bool timed_out = false;  // it was ended by us
   std::string out;
   std::string err;
+  long peak = 0;  // KiB of memory; not below what the test itself had when it was started
 };
 
 struct RunOptions {
