@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "core/format.hpp"
@@ -89,6 +90,7 @@ void add_exact(StripData& data, const StripRun& exact, std::size_t i, const Them
     for (std::size_t part = 0; part < count; ++part) is_exact = is_exact && lies_on(data.curves[c + part], t, plot.curves[from + part].y);
     if (is_exact) return;
   }
+  std::vector<StripCurve> lines;
   const bool ends_early = t.back() < data.end * (1 - kConfirmed);
   for (std::size_t part = 0; part < count; ++part) {
     const PlotCurve& curve = plot.curves[from + part];
@@ -97,8 +99,11 @@ void add_exact(StripData& data, const StripRun& exact, std::size_t i, const Them
     if (ends_early) line.label += " until " + format_significant(t.back(), 2) + " s";
     line.words_above = "thin: " + line.label;
     for (std::size_t k = 0; k < std::min(t.size(), curve.y.size()) && t[k] <= data.end + kSameInstant; ++k) line.points.push_back({t[k], curve.y[k]});
-    data.curves.push_back(std::move(line));
+    lines.push_back(std::move(line));
   }
+  // Runs lie over it, in their own colours.
+  for (StripCurve& run : data.curves) run.covers = true;
+  data.curves.insert(data.curves.begin(), std::make_move_iterator(lines.begin()), std::make_move_iterator(lines.end()));
 }
 
 }  // namespace chainreel

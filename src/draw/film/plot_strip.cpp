@@ -193,7 +193,7 @@ void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve
   draw_curve(picture, frame, path, style, theme);
   if (curve.points.empty() || t >= curve.points.back().x) draw_going_on(picture, frame, curve, style.color);
   for (const Point& p : curve.marks)
-    if (p.x <= t && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
+    if (!path.empty() && p.x <= path.back().x && frame.can_show(p) && p.y >= frame.y.low && p.y <= frame.y.high)
       draw_marker(picture, frame.at(p), Marker::disc, kStepMark, style.color, theme.background);
 }
 
@@ -245,7 +245,7 @@ void PlotStrip::draw_static(Picture& picture) const {
     if (curve.label.empty() || curve.points.empty() || (last == curve.points.rend() && !data_.has_poles)) continue;
     const Point end = last == curve.points.rend() ? Point{frame_.box.x1, frame_.box.y1} : frame_.at(*last);
     // A leader from where a curve leaves the plot, or ends before the others, would be taken for its way on.
-    const bool goes_on = curve.decides && last == curve.points.rbegin();
+    const bool goes_on = curve.decides && last == curve.points.rbegin() && end.x >= frame_.box.x1 - kPlotLabelGap;
     ends.push_back({{goes_on ? end.x : frame_.box.x1, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);

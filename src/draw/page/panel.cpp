@@ -144,8 +144,9 @@ std::string Panel::event_note(int k, int events) const {
 std::string Panel::note(int k, int events) const {
   const std::optional<double> left = left_at();
   if (!left || k <= last_) return event_note(k, events);
-  const bool gone = left_ || motion_->trajectory().status == RunStatus::diverged;
-  const std::string text = (gone ? "left the picture at " : "ended at ") + time_text(*left);
+  const bool diverged = motion_->trajectory().status == RunStatus::diverged, gone = left_ || diverged;
+  // A chain on a pin grows wild in its place.
+  const std::string text = (left_ ? "left the picture at " : diverged ? "diverged at " : "ended at ") + time_text(*left);
   return gone && events > 0 ? text + away_note() : text;
 }
 

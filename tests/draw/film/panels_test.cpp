@@ -270,7 +270,7 @@ TEST_F(PanelFilm, ARunThatEndsInsideThePictureIsDatedByItsEnd) {
   add("calm", sliding);
   add("wild", sliding, true, 40);
   runs[1]->end_time = 0.66;
-  EXPECT_THAT(test::words_of(film().frame(40)), HasSubstr("left the picture at t = 0.66 s"));
+  EXPECT_THAT(test::words_of(film().frame(40)), HasSubstr("diverged at t = 0.66 s"));
   runs[1]->status = RunStatus::not_converged;
   EXPECT_THAT(test::words_of(film().frame(40)), HasSubstr("ended at t = 0.66 s"));
   EXPECT_THAT(test::words_of(film().frame(39)), Not(HasSubstr("ended")));
@@ -287,10 +287,10 @@ TEST_F(PanelFilm, WhereAllDivergeTheCameraHoldsThemAll) {
 TEST_F(PanelFilm, AloneStandsStillOnlyWhereItIsToDiverge) {
   add("", sliding, true, 40);
   scenes[0]->expect = page.expect = Outcome::diverge;
-  EXPECT_THAT(test::words_of(film().frame(60)), HasSubstr("left the picture"));
+  EXPECT_THAT(test::words_of(film().frame(60)), HasSubstr("diverged at"));
   EXPECT_THAT(test::words_of(film().frame(60)), HasSubstr("t = 1.00 s"));
   scenes[0]->expect = page.expect = Outcome::finish;
-  EXPECT_THAT(test::words_of(film().frame(60)), Not(HasSubstr("left the picture")));
+  EXPECT_THAT(test::words_of(film().frame(60)), Not(HasSubstr("diverged")));
 }
 
 TEST_F(PanelFilm, HasOneTitleOneTimeAndATitleForEachPanelInTheColourOfItsSide) {

@@ -109,6 +109,21 @@ TEST(PlotStrip, RunsThatWentWildSayWhereTheyGo) {
   EXPECT_EQ(heads(drawn({tame, tame}, 2)), 0u);
 }
 
+// A curve that ends within the frame, as that of a run that was stopped, goes nowhere from there.
+TEST(PlotStrip, NoLineLeadsFromWhereACurveEndsEarly) {
+  const Fonts fonts;
+  const auto reaches = [&](double end) {
+    Picture picture;
+    PlotStrip strip(strip_data({run_of("a", false, {0, 1, 2}), run_of("b", false, {0, 1, 1}), run_of("c", false, {0, 0, 0})}, 0, end, light_theme()), kStripArea, style_of(fonts));
+    strip.draw_static(picture);
+    EXPECT_NE(test::words_of(picture).find("b"), std::string::npos) << "it is named";
+    const double middle = (strip.frame().at_x(2) + strip.frame().box.x1) / 2;  // of what lies behind its end
+    const auto leads_on = [&](const Capsule& line) { return line.a.x < middle - 0.02 && line.a.x > strip.frame().box.x0 + 0.02 && line.b.x > middle + 0.02; };
+    return test::all_of<Capsule>(picture, leads_on).size();
+  };
+  EXPECT_EQ(reaches(4), 0u);
+}
+
 // Unless a run lies on it, the exact curve is there, and named where names of runs have no room.
 TEST(PlotStrip, RunsThatErrHaveTheExactCurveBesideThem) {
   const Fonts fonts;
@@ -120,10 +135,10 @@ TEST(PlotStrip, RunsThatErrHaveTheExactCurveBesideThem) {
   };
   const StripData data = strip_of({far, wild}, exact);
   ASSERT_EQ(data.curves.size(), 3u);
-  EXPECT_EQ(data.curves.back().label, "exact");
-  EXPECT_EQ(data.curves.back().style.color, light_theme().ink);
+  EXPECT_EQ(data.curves.front().label, "exact") << "below the others";
+  EXPECT_EQ(data.curves.front().style.color, light_theme().ink);
   EXPECT_EQ(strip_of({far, exact}, exact).curves.size(), 2u) << "one of them is exact";
-  EXPECT_EQ(strip_of({far, wild}, exact, 4).curves.back().label, "exact until 2 s");
+  EXPECT_EQ(strip_of({far, wild}, exact, 4).curves.front().label, "exact until 2 s");
   Picture picture;
   PlotStrip(data, {0.1, 0.1, 0.5, 0.4}, style_of(fonts)).draw_static(picture);
   EXPECT_NE(test::words_of(picture).find("thin: exact"), std::string::npos);
