@@ -9,6 +9,7 @@
 #include "draw/layers/beside_links.hpp"
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
+#include "draw/layers/reactions.hpp"
 #include "draw/layers/vectors.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
@@ -32,7 +33,6 @@ constexpr int kMostLabels = 4;         // of weights
 constexpr int kMostTorqueLabels = 6;
 constexpr double kArcOfLink = 0.32;    // an arc's radius at most, of the shortest link
 constexpr double kSmallestArc = 0.5;   // of the size that arcs have elsewhere
-constexpr double kAlongPushed = 0.1;   // cosine of the largest angle from a force to the link that it pushes
 constexpr double kLinkOfWords = 1.5;    // of the height of letters: between shorter links there is no room for words
 constexpr double kKeepsName = 0.3;      // s of the film: for so long it may be small and keep its name
 constexpr double kNumberStays = 0.4;   // s of the film before and after what is cut: time to read its number
@@ -355,59 +355,6 @@ std::vector<WorldVector> velocity_at(const Chain& chain, const Workspace& ws) {
            frame_velocity(chain, ws, chain.end_effector), Vector3d::Zero(), Vector3d::Zero(), "v"}};
 }
 
-// As the curves of their multipliers are called in plots: f = -lambda, what the ties exert on the robot.
-std::string word_of(const Reaction& reaction, int all_rows) {
-  if (reaction.rows.empty()) return "f_c";
-  std::string numbers;
-  for (const int row : reaction.rows) numbers += (numbers.empty() ? "" : ",") + std::to_string(row + 1);
-  return all_rows == 1 ? "-lambda" : "-lambda_{" + numbers + "}";
-}
-
-// The reactions of a run at its samples, and the frames that one row alone pushes towards their links in all of the clip.
-struct ReactionRun {
-  std::vector<std::vector<Reaction>> at;
-  std::vector<int> pushed;
-};
-
-ReactionRun reactions_of(const StagedRun& motion) {
-  const Chain& chain = motion.chain();
-  ReactionRun run{reactions_along(*motion.simulation(), motion.trajectory()), {}};
-  if (rounding_of(chain, run.at)) return {};
-  std::map<int, bool> pushes;
-  for (int k = 0; k < std::min(motion.samples(), int(run.at.size())); ++k) {
-    const Workspace& ws = motion.pose_at(k);
-    for (const Reaction& one : run.at[std::size_t(k)]) {
-      const Vector3d to_joint = ws.X_WB[std::size_t(chain.frames[std::size_t(one.frame)].body)].translation() - frame_position(chain, ws, one.frame);
-      const bool along = one.rows.size() == 1 && one.force.dot(to_joint) > kAlongPushed * one.force.norm() * to_joint.norm();
-      pushes.emplace(one.frame, true).first->second &= along || one.force.isZero();
-    }
-  }
-  for (const auto& [frame, always] : pushes)
-    if (always) run.pushed.push_back(frame);
-  return run;
-}
-
-std::vector<WorldVector> reactions_at(const Chain& chain, const Workspace& ws,
-                                      const std::vector<Reaction>& reactions, const std::vector<int>& pushed, int all_rows) {
-  std::vector<Reaction> at_frames;  // what pulls at one place is one force
-  for (const Reaction& one : reactions) {
-    const auto same = std::find_if(at_frames.begin(), at_frames.end(), [&](const Reaction& other) { return other.frame == one.frame; });
-    if (same == at_frames.end()) {
-      at_frames.push_back(one);
-      continue;
-    }
-    same->force += one.force;
-    same->rows.insert(same->rows.end(), one.rows.begin(), one.rows.end());
-  }
-  std::vector<WorldVector> vectors;
-  for (const Reaction& one : at_frames) {
-    vectors.push_back({VectorKind::constraint, frame_position(chain, ws, one.frame), one.force, Vector3d::Zero(), Vector3d::Zero(),
-                       word_of(one, all_rows)});
-    vectors.back().pushes = std::ranges::find(pushed, one.frame) != pushed.end();
-  }
-  return vectors;
-}
-
 std::vector<VectorKind> kinds_of_torque(const Chain& chain) {
   bool turns = false, slides = false;
   for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
@@ -456,11 +403,9 @@ VectorsAt pushes_of(const Stage&) {
 }
 
 VectorsAt constraint_forces_of(const Stage& stage) {
-  return [forces = along_runs<ReactionRun>(stage, reactions_of)](const StagedRun& motion, const Workspace& ws, int k) {
+  return [forces = along_runs<ReactionRun>(stage, [](const StagedRun& motion) { return ReactionRun(motion); })](const StagedRun& motion, const Workspace& ws, int k) {
     const auto own = forces.find(&motion);
-    return own == forces.end() || own->second.at.empty()
-               ? std::vector<WorldVector>()
-               : reactions_at(motion.chain(), ws, own->second.at[std::size_t(k)], own->second.pushed, motion.trajectory().rows);
+    return own == forces.end() ? std::vector<WorldVector>() : own->second.vectors_at(ws, k);
   };
 }
 

@@ -190,9 +190,11 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
 
 namespace {
 
-// "tau_2 = -31 N m" about the axis or along the rail; of what may point anywhere its size, "|lambda| = 4.2 N" of -lambda.
+// "tau_2 = -31 N m" about the axis or along the rail, "lambda_1 = -31 N" of what has an amount; of what may point anywhere its size,
+// "|v| = 4.2 m/s".
 std::string words_with_value(const WorldVector& vector) {
   const auto words = [&](const std::string& symbol, double value) { return symbol + " = " + format_significant(value, 2) + " " + unit_of(vector.kind); };
+  if (vector.amount) return words(vector.amount->of, vector.amount->value);
   for (const Eigen::Vector3d& way : {vector.axis, vector.rail})
     if (way.norm() > 0) return words(vector.label, vector.value.dot(way));
   return words("|" + vector.label.substr(vector.label.starts_with('-') ? 1 : 0) + "|", vector.value.norm());

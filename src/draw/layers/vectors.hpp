@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -27,6 +28,12 @@ inline constexpr std::array<VectorKind, 6> kVectorKinds{VectorKind::torque, Vect
                                                         VectorKind::velocity, VectorKind::weight,
                                                         VectorKind::constraint, VectorKind::push};
 
+// What the number beside a vector is of, in math notation, where that is another thing than its size.
+struct Amount {
+  std::string of{};
+  double value = 0;
+};
+
 // What is to be shown at one instant, in W.
 struct WorldVector {
   VectorKind kind = VectorKind::velocity;
@@ -40,6 +47,7 @@ struct WorldVector {
   bool keeps_name = false;  // ... it is small for a moment only, as where it changes its sense, and does not lose its name for that
   double size = 1;  // of a torque's arc: less where links are short on the page
   bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
+  std::optional<Amount> amount{};
   double aside = 0;     // units of H, to the left of its own way: it stands beside what it would hide, and a line ties it to its place
 };
 

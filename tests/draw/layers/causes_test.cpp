@@ -405,14 +405,25 @@ TEST(TorqueLayer, WritesTheValueBesideAnArrowThatIsCut) {
   EXPECT_EQ(test::words_of(pictures.still(55)).find("="), std::string::npos);
 }
 
-// What the ties exert has the names of the plotted multipliers.
+// What the ties exert has the names of the plotted multipliers: a vector of those that act in several directions, a sum of those
+// that act in one.
 TEST(ConstraintForces, AreNamedLikeTheirCurves) {
   const Cause four_bar("four_bar", {"layout=scene", "draw=[+constraint_force]"}), pen("pen", {"layout=scene"});
   const auto dashes = [](const Picture& picture) {
     return test::all_of<Polygon>(picture, [](const Polygon& p) { return p.paint.fill == light().constraint; }).size();
   };
   EXPECT_GT(dashes(four_bar.film().still(44)), 0u);
-  EXPECT_TRUE(has_words(four_bar.film().still(44), "1,2"));
+  EXPECT_TRUE(has_words(four_bar.film().still(44), "(\U0001D7061"));
+  EXPECT_FALSE(has_words(four_bar.film().still(44), "+"));
+  const Cause twice("redundant", {"layout=scene"}, 1);
+  bool is_sum = false, is_vector = false;
+  const Film film = twice.film();
+  for (int k = 0; k < 60; ++k) {
+    is_sum |= has_words(film.still(k), "+");
+    is_vector |= has_words(film.still(k), ",");
+  }
+  EXPECT_TRUE(is_sum);
+  EXPECT_FALSE(is_vector);
   EXPECT_GT(dashes(pen.film().still(40)), 0u);
 }
 
