@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/format.hpp"
+#include "draw/page/panel_grid.hpp"
 #include "draw/robot/chain.hpp"
 #include "draw/robot/chain_fit.hpp"
 #include "draw/robot/joints.hpp"

@@ -35,7 +35,6 @@ constexpr double kArcOfLink = 0.32;    // an arc's radius at most, of the shorte
 constexpr double kSmallestArc = 0.5;   // of the size that arcs have elsewhere
 constexpr double kLinkOfWords = 1.5;    // of the height of letters: between shorter links there is no room for words
 constexpr double kKeepsName = 0.3;      // s of the film: for so long it may be small and keep its name
-constexpr double kNumberStays = 0.4;   // s of the film before and after what is cut: time to read its number
 
 // The vectors of a motion at sample k, after compute_kinematics there.
 using VectorsAt = std::function<std::vector<WorldVector>(const StagedRun& motion, const Workspace& ws, int k)>;
@@ -113,12 +112,15 @@ class VectorLayer : public Layer {
     const double link = panel.motion().skeleton().shortest_link * panel.camera().scale;
     const double arcs = link > 0 ? std::clamp(kArcOfLink * link / (panel.marks() * size::kTorqueArc), kSmallestArc, 1.0) : 1;
     const Asides& asides = asides_of(panel, shot.k);
+    const Peaks& peaks = peaks_of(panel, shot.k);
     Names names;
     std::vector<WorldVector> vectors = vectors_at_(panel.motion(), shot.ws, shot.k);
     for (WorldVector& vector : vectors) vector.size = arcs;
     pen_.keep_apart(vectors, panel.camera(), panel.marks());
     for (WorldVector& vector : vectors) {
-      if (const auto one = asides.find(names.next(vector)); one != asides.end()) vector.aside = one->second[std::size_t(shot.k)];
+      const VectorName name = names.next(vector);
+      if (const auto one = asides.find(name); one != asides.end()) vector.aside = one->second[std::size_t(shot.k)];
+      if (const auto one = peaks.find(name); one != peaks.end()) vector.peak = one->second[std::size_t(shot.k)];
       if (vector.kind == VectorKind::torque && link > 0 && link < kLinkOfWords * pen_.em(panel.marks())) vector.label.clear();
       pen_.draw(picture, vector, panel.camera(), panel.marks(), panel.clip(), shot.labels);
     }
@@ -181,6 +183,30 @@ class VectorLayer : public Layer {
     return known->second;
   }
 
+  // Of those that are cut anywhere, what is said of them at each frame.
+  using Peaks = std::map<VectorName, std::vector<std::optional<Peak>>>;
+  const Peaks& peaks_of(const Panel& panel, int drawn) const {
+    const StagedRun& motion = panel.motion();
+    const auto [known, is_new] = peaks_.try_emplace(&motion);
+    if (!is_new) return known->second;
+    std::map<VectorName, std::vector<double>> numbers;
+    std::map<VectorName, double> cuts;
+    for (int k = 0; k <= panel.last(); ++k) {
+      const Workspace& ws = motion.pose_at(k);
+      Names names;
+      for (const WorldVector& vector : vectors_at_(motion, ws, k)) {
+        const VectorName name = names.next(vector);
+        numbers.try_emplace(name, std::size_t(panel.last()) + 1).first->second[std::size_t(k)] = number_of(vector);
+        cuts.emplace(name, pen_.cut_beyond(vector.kind));
+      }
+    }
+    motion.pose_at(drawn);
+    for (const auto& [name, values] : numbers)
+      if (const double cut = cuts[name]; std::ranges::any_of(values, [cut](double value) { return std::abs(value) > cut; }))
+        known->second.emplace(name, peaks_along(values, cut, stage_->page.video.fps.value()));
+    return known->second;
+  }
+
   // By the time of the motion: where the film stands still or is slow nothing is larger. Runs that diverge do not decide on it,
   // unless all do: their arrows are cut.
   static VectorScales scales_of(const Stage& stage, const VectorsAt& vectors_at) {
@@ -236,6 +262,7 @@ class VectorLayer : public Layer {
   VectorScales scales_;
   VectorPen pen_;
   mutable std::map<const StagedRun*, Asides> asides_;
+  mutable std::map<const StagedRun*, Peaks> peaks_;
 };
 
 std::vector<WorldVector> weights_at(const Chain& chain, const Workspace& ws) {
@@ -262,8 +289,7 @@ class TorqueRun {
         tau_(torques_along(*motion.simulation(), motion.trajectory())),
         shown_(nv_),
         rings_(nv_),
-        numbered_(nv_, std::vector<bool>(motion.trajectory().t.size())),
-        named_(numbered_) {
+        named_(nv_, std::vector<bool>(motion.trajectory().t.size())) {
     const std::vector<double>& t = motion.trajectory().t;
     for (std::size_t at = 0; at < tau_.size(); ++at)
       if (std::isfinite(tau_[at]) && tau_[at] != 0) shown_[at % nv_] = true;
@@ -274,7 +300,6 @@ class TorqueRun {
     std::vector<Magnitude> magnitudes;
     for (std::size_t at = 0; at < tau_.size(); ++at) magnitudes.push_back({std::abs(tau_[at]), lasts(t, at / nv_)});
     const double full = full_magnitude(std::move(magnitudes));
-    const int number_stays = int(std::lround(kNumberStays * stage.page.video.fps.value()));
     const int keeps_name = int(std::lround(kKeepsName * stage.page.video.fps.value()));
     for (std::size_t i = 0; i < nv_; ++i) {
       std::vector<bool> rests(t.size());
@@ -285,9 +310,6 @@ class TorqueRun {
         for (int between = named + 1; named >= 0 && k - named <= keeps_name && between < k; ++between) named_[i][std::size_t(between)] = true;
         named = k;
       }
-      for (int k = 0; k < int(t.size()); ++k)
-        if (std::abs(tau_[std::size_t(k) * nv_ + i]) > full * kWidestTurn / kTurnOfFull)
-          for (int near = std::max(0, k - number_stays); near <= std::min(k + number_stays, int(t.size()) - 1); ++near) numbered_[i][std::size_t(near)] = true;
     }
   }
 
@@ -295,8 +317,6 @@ class TorqueRun {
   // Whether anything ever acts at the freedom, and no spring stands for it.
   bool shows(int freedom) const { return shown_[std::size_t(freedom)]; }
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
-  // Whether its name has its number: where it is cut, and a while before and after, so that none is there for one frame.
-  bool has_number(int freedom, int k) const { return numbered_[std::size_t(freedom)][std::size_t(k)]; }
   // Whether it is too small for a name, but only for a moment.
   bool keeps_name(int freedom, int k) const { return named_[std::size_t(freedom)][std::size_t(k)]; }
   bool is_labelled() const { return labelled_; }
@@ -307,9 +327,20 @@ class TorqueRun {
   std::vector<double> tau_;                 // nv a sample
   std::vector<bool> shown_;                 // a freedom
   std::vector<std::vector<double>> rings_;  // a freedom, a sample
-  std::vector<std::vector<bool>> numbered_, named_;  // ... the same
+  std::vector<std::vector<bool>> named_;  // ... the same
   bool labelled_ = true;
 };
+
+// How far from its joint a body of a planar chain reaches: to its frames, and to the joints that it bears.
+double reach_of(const Chain& chain, const Workspace& ws, int body) {
+  const Vector3d joint = pose_of(ws, body).translation();
+  double reach = 0;
+  for (std::size_t f = 0; f < chain.frames.size(); ++f)
+    if (chain.frames[f].body == body) reach = std::max(reach, (frame_position(chain, ws, int(f)) - joint).norm());
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b)
+    if (chain.bodies[b].parent == body) reach = std::max(reach, (pose_of(ws, int(b)).translation() - joint).norm());
+  return reach;
+}
 
 std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, const TorqueRun& run, int k) {
   std::vector<WorldVector> vectors;
@@ -333,8 +364,8 @@ std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, con
     if (joint.ratio != 1 || joint.offset != 0 || !run.shows(joint.v_index)) continue;
     const Vector3d axis = X_WB.linear() * joint.axis;
     if (joint.kind == JointKind::revolute)
-      vectors.push_back({VectorKind::torque, place, *own * axis, axis, Vector3d::Zero(), label,
-                         run.ring(joint.v_index, k), run.has_number(joint.v_index, k), run.keeps_name(joint.v_index, k)});
+      vectors.push_back({VectorKind::torque, place, *own * axis, axis, Vector3d::Zero(), label, run.ring(joint.v_index, k), std::nullopt,
+                         run.keeps_name(joint.v_index, k), chain.planar && chain.bodies[b].parent == 0 ? reach_of(chain, ws, int(b)) : 0});
     else
       vectors.push_back({VectorKind::joint_force, place, *own * axis, Vector3d::Zero(), axis, label});
   }

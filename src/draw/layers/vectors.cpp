@@ -23,6 +23,8 @@ constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes
 constexpr double kRoundOffBelow = 1e-6;   // of the largest
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
+constexpr double kAboutPeak[] = {0.04, 0.08, 0.13, 0.19}, kLeastUntied = 0.1;  // units of H: where numbers of cut arrows stand about their places, and how short arrows then need a line
+constexpr double kBesideSwept = 0.03, kFarthestSwept = 0.3;  // units of H: from a circle that a link sweeps, half of its width included; words farther off name nothing
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
 constexpr double kNearestName = 0.65;     // of an arc's whole radius: where it changes its sense its name stays, rather than run in and out
@@ -127,6 +129,13 @@ std::vector<double> rings_along(const std::vector<double>& t, const std::vector<
   return rings;
 }
 
+double number_of(const WorldVector& vector) {
+  if (vector.amount) return vector.amount->value;
+  for (const Vector3d& way : {vector.axis, vector.rail})
+    if (way.norm() > 0) return vector.value.dot(way);
+  return vector.value.norm();
+}
+
 VectorScale VectorScales::of(VectorKind kind) const {
   const double value = full[std::size_t(kind)];
   if (kind == VectorKind::torque) return {value, kTurnOfFull * std::numbers::pi / 180};
@@ -191,13 +200,13 @@ std::vector<ScaleEntry> scale_entries(const VectorScales& scales, const std::vec
 namespace {
 
 // "tau_2 = -31 N m" about the axis or along the rail, "lambda_1 = -31 N" of what has an amount; of what may point anywhere its size,
-// "|v| = 4.2 m/s".
+// "|v| = 4.2 m/s". A number that is true at one instant of those at which it stands says so: "peak |v| = 4.2 m/s".
 std::string words_with_value(const WorldVector& vector) {
-  const auto words = [&](const std::string& symbol, double value) { return symbol + " = " + format_significant(value, 2) + " " + unit_of(vector.kind); };
-  if (vector.amount) return words(vector.amount->of, vector.amount->value);
-  for (const Eigen::Vector3d& way : {vector.axis, vector.rail})
-    if (way.norm() > 0) return words(vector.label, vector.value.dot(way));
-  return words("|" + vector.label.substr(vector.label.starts_with('-') ? 1 : 0) + "|", vector.value.norm());
+  const bool has_sense = vector.axis.norm() > 0 || vector.rail.norm() > 0;
+  const std::string size = "|" + vector.label.substr(vector.label.starts_with('-') ? 1 : 0) + "|";
+  const std::string symbol = vector.amount ? vector.amount->of : has_sense ? vector.label : size;
+  const double value = vector.peak ? vector.peak->value : number_of(vector);
+  return (vector.peak && !vector.peak->is_steady ? "\"peak \"" : "") + symbol + " = " + format_significant(value, 2) + " " + unit_of(vector.kind);
 }
 
 }  // namespace
@@ -205,9 +214,9 @@ std::string words_with_value(const WorldVector& vector) {
 VectorPen::VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales)
     : theme_(&theme), fonts_(&fonts), text_scale_(text_scale), scales_(scales) {}
 
-const TextLine& VectorPen::label(const WorldVector& vector, double marks, bool is_cut) const {
-  // An arrow that is cut does not say how large it is; that of a push has its size in its name.
-  const std::string words = is_cut && vector.kind != VectorKind::push ? words_with_value(vector) : vector.label;
+const TextLine& VectorPen::label(const WorldVector& vector, double marks, bool has_number) const {
+  // That of a push has its size in its name.
+  const std::string words = has_number && vector.kind != VectorKind::push ? words_with_value(vector) : vector.label;
   const auto key = std::tuple{vector.kind, words, marks};
   const auto known = labels_.find(key);
   if (known != labels_.end()) return known->second;
@@ -274,6 +283,10 @@ void VectorPen::add_to(FitBox& box, const WorldVector& vector, const Camera& cam
   }
 }
 
+double VectorPen::cut_beyond(VectorKind kind) const {
+  return scales_.of(kind).full * (kind == VectorKind::torque ? kWidestTurn / kTurnOfFull : size::kArrowCut / size::kLongestArrow);
+}
+
 double VectorPen::radius_of(const WorldVector& vector, double marks) {
   return vector.size * marks * size::kTorqueArc;
 }
@@ -318,16 +331,22 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double dot = style.size * kTorqueDot;
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
   // A word beside a dot is the name of nothing.
-  if (vector.label.empty() || !(turn > kLeastNamed * widest || vector.keeps_name)) return;
-  const TextLine& text = label(vector, marks, style.broken > 0 || vector.has_number);
+  if (vector.label.empty() || !(turn > kLeastNamed * widest || vector.keeps_name || vector.peak)) return;
+  const TextLine& text = label(vector, marks, vector.peak.has_value());
   const double half_head = marks * size::kArrowHeadWidth / 2;
   const double off = std::max({grown * radius, kNearestName * radius, kLeastLabelled * marks}) + half_head + kVectorLabelGap;
   MarkWord word{word_name(vector), text, {}, std::nullopt, Tie{center, grown * radius + half_head, style.color}};
-  for (const double far : {0.0, kFarLabelGap, 2.2 * kFarLabelGap})
-    for (const Rect& place : places_about(text, center, off + far, {0, 1})) {
+  const auto add_places = [&](double far, Point first) {
+    for (const Rect& place : places_about(text, center, far, first)) {
       word.places.push_back(place);
       word.closed.push_back(!is_beside_turn(center_of(place) - center, u, w, turn));
     }
+  };
+  for (const double far : {0.0, kFarLabelGap, 2.2 * kFarLabelGap}) add_places(off + far, {0, 1});
+  // Where a link turns all around its joint, no word stays in one place but outside of that circle; aslant, where neither title nor
+  // ground is.
+  const double swept = vector.swept * camera.scale + marks * kBesideSwept;
+  if (vector.swept > 0 && swept < kFarthestSwept) add_places(swept, std::sqrt(0.5) * Point{-1, 1});
   word.anchor = center;
   labels.add(std::move(word));
 }
@@ -351,7 +370,8 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const VectorScale scale = scales_.of(vector.kind);
   const double magnitude = vector.value.norm();
   if (!(magnitude > kRoundOffBelow * scale.full)) return;
-  const bool is_seen = norm(arrow.v) >= size::kShortestArrow;
+  // Those of ties act at joints and ends, whose discs would hide the half of a short one.
+  const bool is_seen = norm(arrow.v) >= (vector.kind == VectorKind::constraint ? marks * kLeastLabelled : size::kShortestArrow);
   const Point tail = place + arrow.shift;
   if (is_seen && vector.aside != 0) draw_tie_to_place(picture, place, tail, marks, color_of(vector.kind, *theme_), clip);
   if (is_seen)
@@ -360,13 +380,22 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   // What is hardly more than a head, or none, is a dot, lest it be thought that nothing acts.
   if (scale.on_page(magnitude) < marks * kLeastLabelled && vector.kind != VectorKind::velocity)
     picture.add(Ellipse{vector.pushes ? place : tail, {marks * kPlaceDot, 0}, {0, marks * kPlaceDot}, {color_of(vector.kind, *theme_), {}, 0}}, clip);
-  // A word beside such a one names what nobody sees, unless it is a number that stays: of a push, or of a weight.
+  // A word beside such a one names what nobody sees, unless it is a number that stays: of a push, of a weight, or of a peak.
   const bool is_small = norm(arrow.v) < kLeastLabelled * marks;
-  const bool has_number = vector.kind == VectorKind::push || (is_small && vector.kind == VectorKind::weight);
-  if (vector.label.empty() || (is_small && !has_number)) return;
-  const TextLine& text = label(vector, marks, arrow.broken > 0 || is_small);
+  const bool stays = vector.kind == VectorKind::push || vector.kind == VectorKind::weight || vector.peak;
+  if (vector.label.empty() || (is_small && !stays)) return;
+  const TextLine& text = label(vector, marks, is_small || vector.peak);
   MarkWord word{word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)};
   word.anchor = tail + arrow.v;
+  // Where the arrow grows and turns quicker than an eye follows, its number rides along with its place.
+  if (vector.peak) {
+    word.anchor = tail;
+    // An arrow that is longer is near to all of these places.
+    const double length = norm(arrow.v);
+    if (length < kLeastUntied) word.tie = Tie{tail, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
+    for (const double off : kAboutPeak)
+      for (const Rect& about : places_about(text, tail, off, {0, 1})) word.places.push_back(about);
+  }
   labels.add(std::move(word));
 }
 

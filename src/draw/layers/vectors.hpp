@@ -13,8 +13,10 @@
 #include <tuple>
 #include <vector>
 
+#include "draw/layers/peaks.hpp"
 #include "draw/page/mark_labels.hpp"
 #include "draw/page/scales.hpp"
+#include "draw/page/sheet.hpp"
 #include "draw/robot/fit.hpp"
 #include "draw/robot/joints.hpp"
 #include "picture/camera.hpp"
@@ -43,8 +45,9 @@ struct WorldVector {
   Eigen::Vector3d rail = Eigen::Vector3d::Zero();   // of a joint force, unit: it is drawn beside its rail
   std::string label{};                              // a symbol in math notation
   double ring = 0;  // of a torque: opacity of the ring which says that it rests
-  bool has_number = false;  // of a torque: its name says its size, as where its arc is cut
-  bool keeps_name = false;  // ... it is small for a moment only, as where it changes its sense, and does not lose its name for that
+  std::optional<Peak> peak{};  // its name says this number, as where it is cut
+  bool keeps_name = false;  // of a torque: it is small for a moment only, as where it changes its sense, and does not lose its name for that
+  double swept = 0;  // m: of a torque about a joint of the ground, how far from it the link reaches that it turns
   double size = 1;  // of a torque's arc: less where links are short on the page
   bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
   std::optional<Amount> amount{};
@@ -64,6 +67,8 @@ struct VectorScales {
 
   VectorScale of(VectorKind kind) const;
 };
+// What it is in one number: along its axis or rail, its amount, else its size.
+double number_of(const WorldVector& vector);
 inline constexpr double kTurnOfFull = 240, kWidestTurn = 300;  // degrees
 // Of the widest turn that arcs have: arcs of less lie on the disc of their joint, and have no name.
 inline constexpr double kLeastNamed = 0.08;
@@ -118,6 +123,8 @@ class VectorPen {
   Rect extent(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
   // From its tail to its tip; of a force or a velocity.
   PageLine line_of(const WorldVector& vector, const Camera& camera, double marks) const;
+  // What is larger is cut.
+  double cut_beyond(VectorKind kind) const;
   // Arcs of torques whose joints come close to one another get other sizes (draw/layers/arcs_apart).
   void keep_apart(std::vector<WorldVector>& vectors, const Camera& camera, double marks) const;
   // The height of their names' letters, units of H.
@@ -136,7 +143,7 @@ class VectorPen {
   };
   Straight straight(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
   void draw_tie_to_place(Picture& picture, Point place, Point tail, double marks, Color color, int clip) const;
-  const TextLine& label(const WorldVector& vector, double marks, bool is_cut = false) const;
+  const TextLine& label(const WorldVector& vector, double marks, bool has_number = false) const;
   void draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks, int clip,
                    MarkLabels& labels) const;
 

@@ -1,0 +1,79 @@
+#include "draw/layers/peaks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/format.hpp"
+#include "draw/page/word_plan.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kPeakStays = 0.3;  // s of the film before and after what is cut: time to read its number
+constexpr double kStillActs = 0.1;  // of what is cut: below this a number stands only as long as it takes to be read
+
+// Frames [begin, end) at which a number stands.
+struct NumberedPassage {
+  int begin, end;
+  double value;
+};
+
+bool in_one_sense(double a, double b) {
+  return std::signbit(a) == std::signbit(b);
+}
+
+// Those that are cut, of one sense each.
+std::vector<NumberedPassage> cut_passages(const std::vector<double>& values, double cut, int stays) {
+  std::vector<NumberedPassage> passages;
+  for (int k = 0; k < int(values.size()); ++k) {
+    const double value = values[std::size_t(k)];
+    if (!(std::abs(value) > cut)) continue;
+    if (passages.empty() || k - passages.back().end > 2 * stays || !in_one_sense(value, passages.back().value)) {
+      passages.push_back({k, k + 1, value});
+      continue;
+    }
+    passages.back().end = k + 1;
+    if (std::abs(value) > std::abs(passages.back().value)) passages.back().value = value;
+  }
+  return passages;
+}
+
+// Goes on on both sides for as long as it stays, within [first, last), but for what is another sense or next to nothing: unless
+// what is left would be too short to be read.
+void lengthen(NumberedPassage& passage, const std::vector<double>& values, double cut, int first, int last, int stays, int shortest) {
+  const auto acts = [&](int k) {
+    const double value = values[std::size_t(k)];
+    return in_one_sense(value, passage.value) && std::abs(value) > kStillActs * cut;
+  };
+  const int begin = std::max(first, passage.begin - stays), end = std::min(last, passage.end + stays);
+  while (passage.begin > begin && acts(passage.begin - 1)) --passage.begin;
+  while (passage.end < end && acts(passage.end)) ++passage.end;
+  while (passage.end - passage.begin < shortest && (passage.begin > begin || passage.end < end)) {
+    if (passage.end < end) ++passage.end;
+    if (passage.begin > begin && passage.end - passage.begin < shortest) --passage.begin;
+  }
+}
+
+bool is_said_alike(const NumberedPassage& passage, const std::vector<double>& values) {
+  const std::string said = format_significant(passage.value, 2);
+  return std::all_of(values.begin() + passage.begin, values.begin() + passage.end, [&](double value) { return format_significant(value, 2) == said; });
+}
+
+}  // namespace
+
+std::vector<std::optional<Peak>> peaks_along(const std::vector<double>& values, double cut, double fps) {
+  const int count = int(values.size());
+  const int stays = int(std::lround(kPeakStays * fps)), shortest = std::min(count, int(std::lround(kShortestStay * fps)));
+  std::vector<std::optional<Peak>> peaks(values.size());
+  std::vector<NumberedPassage> passages = cut_passages(values, cut, stays);
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    NumberedPassage& passage = passages[i];
+    lengthen(passage, values, cut, i > 0 ? passages[i - 1].end : 0, i + 1 < passages.size() ? passages[i + 1].begin : count, stays, shortest);
+    if (passage.end - passage.begin < shortest) continue;
+    const Peak peak{passage.value, is_said_alike(passage, values)};
+    std::fill(peaks.begin() + passage.begin, peaks.begin() + passage.end, peak);
+  }
+  return peaks;
+}
+
+}  // namespace chainreel

@@ -1,0 +1,19 @@
+// Numbers of vectors that are longer than their scale has room for. A number that runs cannot be read, and one that is there for an
+// instant neither: from a while before such a passage until a while behind it one number stands, that of its peak.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace chainreel {
+
+struct Peak {
+  double value = 0;        // with its sign
+  bool is_steady = false;  // what it says is true at all frames at which it stands, and not at the peak alone
+};
+
+// What is said at each frame of a film of so many a second: of `values`, those beyond `cut` are cut. Passages of one sense that lie
+// near to one another are one; what is cut for so short between others that nobody could read its number has none.
+std::vector<std::optional<Peak>> peaks_along(const std::vector<double>& values, double cut, double fps);
+
+}  // namespace chainreel
