@@ -2,6 +2,7 @@
 // run's samples.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,6 +74,7 @@ struct PlotCurve {
   std::string name;       // "q1", "kinetic"; of an expression ""
   std::vector<double> y;  // a number a sample; an effective mass may be infinite
   bool is_bound = false;  // what the others are held against
+  double shown_low = -HUGE_VAL, shown_high = HUGE_VAL;  // what plots show of it, where it may run off to a pole
   double alone = 0;       // the largest size of samples that are left out as each stands far above all others: on a pole, or a needle
 };
 struct PlotCurves {

@@ -3,14 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
 #include "draw/film/film.hpp"
+#include "draw/shapes.hpp"
 #include "picture/theme.hpp"
 #include "support/scene_names.hpp"
 
@@ -129,6 +132,35 @@ TEST_P(WordsOfEveryScene, LieOnNothingAndDoNotJump) {
   const std::map<std::string, double> most{{"rr_ellipse", 0.2}, {"rrr_torque", 0.25}, {"slider_crank", 0.12}, {"redundant", 0.2}, {"four_bar", 0.1}, {"four_bar_singular", 0.1}, {"arm_ellipsoid", 0.2}};
   const auto own = most.find(GetParam());
   EXPECT_LE(counts.left_out, (own == most.end() ? 0.05 : own->second) * counts.words);
+}
+
+// The largest numbers that names of curves tell, as in "to 1\u00D710\u2078 m", of a page's plots.
+std::set<std::string> numbers_told(const std::string& scene, const char* width, const char* height) {
+  const Fonts fonts;
+  const PreparedFilm prepared = load_film(scene, {std::string("video.width=") + width, std::string("video.height=") + height}, false);
+  const Runs runs(prepared);
+  const Composition page = runs.composition(prepared.scene, runs.frames_shown(int(runs.times().size())), fonts);
+  std::set<std::string> told;
+  for (const PlotStrip& plot : page.sheet.plots) {
+    Picture picture;
+    plot.draw_static(picture);
+    const std::string words = test::words_of(picture);
+    for (const std::string before : {"to ", "once "})
+      for (std::size_t at = words.find(before); at != std::string::npos; at = words.find(before, at + 1)) {
+        const std::size_t number = at + before.size();
+        if (number < words.size() && std::isdigit(static_cast<unsigned char>(words[number]))) told.insert(words.substr(at, words.find(' ', number) - at));
+      }
+  }
+  return told;
+}
+
+// Samples of curves do not depend on the page. Where a small one has no room for such a name it tells none.
+TEST_P(WordsOfEveryScene, TellOneNumberOnPagesOfEverySize) {
+  const std::string scene = "assets/scenes/" + GetParam() + ".yaml";
+  const std::set<std::string> told = numbers_told(scene, "1920", "1080");
+  if (told.empty()) return;
+  for (const auto& [width, height] : {std::pair{"640", "360"}, {"480", "270"}, {"1080", "1920"}})
+    for (const std::string& number : numbers_told(scene, width, height)) EXPECT_TRUE(told.contains(number)) << number << " at " << width;
 }
 
 }  // namespace

@@ -35,10 +35,11 @@ std::vector<double> shown_times(const std::vector<Trajectory>& runs, const std::
 }
 
 // How far apart curves of plots are looked at between frames, s: so near that a sharp peak of multipliers is drawn within half a
-// pixel, where that is nearer than frames are.
+// pixel of 1920, where that is nearer than frames are. On pages of every size it is the same, or words that name a curve's largest number would
+// depend on it; wider ones have plots of a part of their width.
 double between_of(const PreparedFilm& film) {
-  constexpr double kPixelsApart = 0.5;  // of the page, of which a plot has a part
-  return kPixelsApart * film.scene.duration / std::max(film.scene.video.width, 1);
+  constexpr double kPartsOfClip = 2 * 1920;
+  return film.scene.duration / kPartsOfClip;
 }
 
 // A trajectory a panel, at these instants; unless it is only looked at for the clock, with its energy at steps.

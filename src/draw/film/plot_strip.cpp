@@ -128,10 +128,17 @@ bool ends_step(double t, const StripRun& run) {
   return std::abs(t - run.step * std::round(t / run.step)) <= same || (next != run.breaks.end() && *next <= t + same);
 }
 
-// Of a run that went wild the first point that its plot does not hold.
+bool may_leave(const StripCurve& curve) {
+  return !curve.decides || std::isfinite(curve.shown_high);
+}
+
+// Of a run that went wild the first point that its plot does not hold; of a curve that runs off to a pole the one behind which it does not come back.
 std::vector<Point>::const_iterator leaves_at(const StripCurve& curve, const Axis& y) {
-  if (curve.decides) return curve.points.end();
-  return std::ranges::find_if(curve.points, [&](const Point& p) { return p.y < y.low || p.y > y.high; });
+  if (!may_leave(curve)) return curve.points.end();
+  const auto is_out = [&](const Point& p) { return p.y < y.low || p.y > y.high; };
+  if (!curve.decides) return std::ranges::find_if(curve.points, is_out);
+  const auto inside = std::find_if(curve.points.rbegin(), curve.points.rend(), [&](const Point& p) { return std::isfinite(p.y) && !is_out(p); });
+  return std::find_if(inside.base(), curve.points.end(), is_out);
 }
 
 // " m" of "q [m]".
@@ -142,7 +149,7 @@ std::string unit_in(const std::string& title) {
 
 // The largest number that it has shows what the axis does not: "to 7\u00D710\u2078 m", with the unit of the title.
 void say_where_it_goes(StripCurve& curve, const Axis& y, const std::string& title) {
-  if (leaves_at(curve, y) == curve.points.end()) return;
+  if (curve.decides || leaves_at(curve, y) == curve.points.end()) return;
   double most = 0;
   for (const Point& p : curve.points)
     if (std::isfinite(p.y)) most = std::max(most, std::abs(p.y));
@@ -160,7 +167,7 @@ double length_of(const std::vector<Point>& points, const PlotFrame& frame) {
 // Where a curve leaves the frame for good it goes on.
 void draw_going_on(Picture& picture, const PlotFrame& frame, const StripCurve& curve, Color color) {
   constexpr double kHead = 0.018, kWidth = 0.016;  // units of H
-  if (curve.decides || curve.points.size() < 2) return;
+  if (!may_leave(curve) || curve.points.size() < 2) return;
   Point from = frame.at(curve.points[curve.points.size() - 2]), to = frame.at(curve.points.back());
   const Point ahead = unit(to - from);
   if (frame.box.y0 <= to.y && to.y <= frame.box.y1) return;
@@ -245,7 +252,7 @@ void PlotStrip::draw_static(Picture& picture) const {
     if (curve.label.empty() || curve.points.empty() || (last == curve.points.rend() && !data_.has_poles)) continue;
     const Point end = last == curve.points.rend() ? Point{frame_.box.x1, frame_.box.y1} : frame_.at(*last);
     // A leader from where a curve leaves the plot, or ends before the others, would be taken for its way on.
-    const bool goes_on = curve.decides && last == curve.points.rbegin() && end.x >= frame_.box.x1 - kPlotLabelGap;
+    const bool goes_on = !may_leave(curve) && last == curve.points.rbegin() && end.x >= frame_.box.x1 - kPlotLabelGap;
     ends.push_back({{goes_on ? end.x : frame_.box.x1, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
@@ -322,6 +329,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     for (std::size_t c = 0; c < shown.curves.size(); ++c) {
       StripCurve curve{
           label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild};
+      curve.shown_low = shown.curves[c].shown_low, curve.shown_high = shown.curves[c].shown_high;
       const std::vector<double>& y = shown.curves[c].y;
       const std::vector<double>& t = run.times[i];
       for (std::size_t k = 0; k < std::min(y.size(), t.size()); ++k) curve.points.push_back({t[k], y[k]});

@@ -18,6 +18,7 @@ struct StripCurve {
   bool decides = true;        // on the range of the axis; curves of runs that went wild do not
   std::string words_above{};  // above the frame where names have no room: what no title of a panel says
   bool covers = false;        // it lies on one before it, which is seen through its gaps
+  double shown_low = -HUGE_VAL, shown_high = HUGE_VAL;  // as of PlotCurve: what lies beyond decides on no axis
   std::vector<Point> marks{};  // of the points, where a step of the run ends and is seen
 };
 

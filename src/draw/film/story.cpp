@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/format.hpp"
 #include "draw/layers/devices.hpp"
 #include "scene/text/write_scene.hpp"
 
@@ -50,8 +49,8 @@ Story of_ellipse(const Stage& stage) {
   return of_all(stage, ellipse.reading == EllipseReading::energy ? PlotQuantity::energy_speed : PlotQuantity::effective_mass);
 }
 
-// Of a foot where the ground presses, and between which ends it can. What lies farther beyond them than half of the foot is told by its
-// number, unless it is most of what there is.
+// Of a foot where the ground presses, and between which ends it can. Farther beyond them than half of the foot it leaves the plot, unless
+// that is most of what there is: a foot that is about to take off has it at a pole, and no number tells how far it goes.
 std::vector<PlotCurves> pressure_on_foot(const StagedRun& motion) {
   constexpr double kBeyondFoot = 0.5;  // lengths of the foot
   const Foot& foot = *motion.simulation()->events->foot;
@@ -64,14 +63,8 @@ std::vector<PlotCurves> pressure_on_foot(const StagedRun& motion) {
   const double most = kBeyondFoot * (foot.toe - foot.heel);
   const auto is_beyond = [&](double place) { return place < foot.heel - most || place > foot.toe + most; };
   const auto is_there = [](double place) { return std::isfinite(place); };
-  if (2 * std::ranges::count_if(pressure.y, is_beyond) > std::ranges::count_if(pressure.y, is_there)) return {told};
-  double farthest = 0;
-  for (double& place : pressure.y) {
-    if (!is_beyond(place)) continue;
-    if (std::abs(place) > std::abs(farthest)) farthest = place;
-    place = NAN;
-  }
-  if (farthest != 0) pressure.name += ", to " + format_significant(farthest, 2) + " m";
+  if (2 * std::ranges::count_if(pressure.y, is_beyond) <= std::ranges::count_if(pressure.y, is_there))
+    pressure.shown_low = foot.heel - most, pressure.shown_high = foot.toe + most;
   return {told};
 }
 

@@ -48,8 +48,9 @@ Axis value_axis(const StripData& data) {
       if (only_deciding && !curve.decides) continue;
       for (const Point& p : curve.points) {
         if (!std::isfinite(p.y)) continue;
-        low = std::min(low, p.y);
-        high = std::max(high, p.y);
+        const double shown = std::clamp(p.y, curve.shown_low, curve.shown_high);
+        low = std::min(low, shown);
+        high = std::max(high, shown);
       }
     }
     if (low <= high) break;

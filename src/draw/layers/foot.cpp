@@ -1,6 +1,6 @@
 // A foot on the ground and what the ground answers: an arrow that ends at the centre of pressure, which is marked, as long as
 // the force. It stands below the ground, along the line on which the force acts, where no leg hides it. The force that presses never
-// leaves the foot: what would have to press beside it is a ring there, and the foot is held by a pull at its other end, which is a dashed arrow with words that
+// leaves the foot. Where it would have to, no centre of pressure is marked, and the foot is held by a pull at its other end, which is a dashed arrow with words that
 // a real foot would tip. A plumb line from the centre of mass shows where that stands beside the foot.
 #include <algorithm>
 #include <cmath>
@@ -31,20 +31,15 @@ constexpr double kPlumbLine = 0.0025;  // units of H
 
 // A run's foot, and what the ground answers at its samples.
 struct FootRun {
-  struct Answer {
-    FootHold hold;                // forces in weights
-    std::optional<double> beyond;  // m along the ground: the centre of pressure, where it is near the foot, but not in it
-  };
-
   explicit FootRun(const StagedRun& motion);
-  const Answer& answer(int k) const { return answers[std::size_t(std::clamp(k, 0, int(answers.size()) - 1))]; }
+  const FootHold& answer(int k) const { return answers[std::size_t(std::clamp(k, 0, int(answers.size()) - 1))]; }
   Eigen::Vector3d on_ground(double place) const { return place * ground.along + foot.height * ground.up; }
 
   double weight = 0;  // N
   Foot foot;
   GroundAxes ground;
   std::vector<Eigen::Vector3d> ankles;  // joints on the world
-  std::vector<Answer> answers;          // a sample
+  std::vector<FootHold> answers;        // a sample; forces in weights
   int held_from = std::numeric_limits<int>::max();  // the sample: a real foot turns from there on
 };
 
@@ -68,7 +63,7 @@ FootRun::FootRun(const StagedRun& motion)
     FootHold hold = hold_of(load, foot, ground);
     hold.force /= weight;
     hold.pull /= weight;
-    answers.push_back({hold, hold.pull > 0 && presses_near(load, foot) ? std::optional(load.cop) : std::nullopt});
+    answers.push_back(hold);
   }
   motion.simulation()->torque->leave_pieces();
 }
@@ -107,13 +102,15 @@ class FootLayer : public Layer {
     text.scales.push_back({ScaleEntry::Mark::arrow, arrow_ * force / *weight_, theme_->constraint,
                            "ground reaction " + format_shortest(force) + " N", kAfterScales});
     text.scales.push_back({ScaleEntry::Mark::disc, 2 * kPressure, theme_->constraint, "centre of pressure", kAfterScales + 1});
+    const bool is_pulled = std::ranges::any_of(runs_, [](const auto& one) { return std::ranges::any_of(one.second.answers, [](const FootHold& hold) { return hold.pull > 0; }); });
+    if (is_pulled) text.scales.push_back({ScaleEntry::Mark::dashed_arrow, arrow_ * force / *weight_, theme_->constraint, "holds the foot", kAfterScales + 2});
   }
 
   void measure(const Sight& sight, FitBox& box) const override {
     const auto known = runs_.find(&sight.motion);
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
-    const FootHold& hold = run.answer(sight.k).hold;
+    const FootHold& hold = run.answer(sight.k);
     const auto hold_below = [&](double place, double weights) {
       box.add({0, 0, arrow_ * std::min(kMostRoom, weights), 0}, sight.camera.flat(run.on_ground(place)));
     };
@@ -139,23 +136,21 @@ class FootLayer : public Layer {
     const auto known = runs_.find(&panel.motion());
     if (known == runs_.end()) return;
     const FootRun& run = known->second;
-    const FootRun::Answer& answer = run.answer(shot.k);
+    const FootHold& hold = run.answer(shot.k);
     draw_plumb_line(picture, run, shot);
-    if (shot.k >= run.held_from && !is_transparent(*page_)) add_held(run, panel.camera(), answer.hold, shot.labels);
+    if (shot.k >= run.held_from && !is_transparent(*page_)) add_held(run, panel.camera(), hold, shot.labels);
     const ChainLook& look = panel.look();
     ArrowStyle style{look.theme->constraint, look.marks, false, 0, look.theme->lines, look.theme->background};
-    const Point pressure = panel.camera().project(run.on_ground(answer.hold.place)), force = on_page(answer.hold.force, panel.camera());
-    style.broken = broken(answer.hold.force.norm());
+    const Point pressure = panel.camera().project(run.on_ground(hold.place)), force = on_page(hold.force, panel.camera());
+    style.broken = broken(hold.force.norm());
     draw_arrow(picture, pressure - force, force, style, panel.clip());
-    const auto mark = [&](Point at, Color fill) {
+    if (hold.pull == 0 && hold.force.dot(run.ground.up) > 0) {
       const double radius = look.marks * kPressure;
-      picture.add(Ellipse{at, {radius, 0}, {0, radius}, {fill, look.theme->constraint, size::kLinkOutline}}, panel.clip());
-    };
-    if (answer.hold.force.dot(run.ground.up) > 0) mark(pressure, look.theme->constraint);
-    if (answer.beyond) mark(panel.camera().project(run.on_ground(*answer.beyond)), look.theme->background);
+      picture.add(Ellipse{pressure, {radius, 0}, {0, radius}, {look.theme->constraint, look.theme->constraint, size::kLinkOutline}}, panel.clip());
+    }
     style.dashed = true;
-    style.broken = broken(answer.hold.pull);
-    draw_arrow(picture, panel.camera().project(run.on_ground(answer.hold.pull_place)), pull_on_page(run, answer.hold, panel.camera()), style, panel.clip());
+    style.broken = broken(hold.pull);
+    draw_arrow(picture, panel.camera().project(run.on_ground(hold.pull_place)), pull_on_page(run, hold, panel.camera()), style, panel.clip());
   }
 
  private:

@@ -124,6 +124,29 @@ TEST(PlotStrip, NoLineLeadsFromWhereACurveEndsEarly) {
   EXPECT_EQ(reaches(4), 0u);
 }
 
+// Of a curve that runs off to a pole no number is told, for its samples there are chance; it points on where it leaves for good.
+TEST(PlotStrip, CurvesThatRunOffToAPolePointOnAndTellNoNumber) {
+  const Fonts fonts;
+  const auto drawn = [&](const std::vector<double>& y, double& high) {
+    StripRun run = run_of("a", false, y);
+    run.plots[0].curves[0].shown_low = -2, run.plots[0].curves[0].shown_high = 2;
+    const PlotStrip strip(strip_data({run}, 0, 4, light_theme()), kStripArea, style_of(fonts));
+    high = strip.frame().y.high;
+    Picture picture;
+    strip.draw_static(picture);
+    return picture;
+  };
+  const auto heads = [](const Picture& picture) { return test::all_of<Polygon>(picture, [](const Polygon& p) { return p.count == 3; }).size(); };
+  double high = 0;
+  for (const double farthest : {9.0, 900.0}) {
+    const Picture leaves = drawn({0, 1, 5, farthest, NAN}, high);
+    EXPECT_LT(high, 2.2);
+    EXPECT_EQ(heads(leaves), 1u);
+    EXPECT_EQ(test::words_of(leaves).find("to "), std::string::npos);
+  }
+  EXPECT_EQ(heads(drawn({0, 9, 1, 0.5, 0}, high)), 0u) << "it comes back";
+}
+
 // Unless a run lies on it, the exact curve is there, and named where names of runs have no room.
 TEST(PlotStrip, RunsThatErrHaveTheExactCurveBesideThem) {
   const Fonts fonts;
