@@ -118,7 +118,7 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) con
   const bool is_gone = k > shown && panel.motion().may_freeze();
   // A page without a ground has no veil and no words to say so: what is not there any more is not shown, but where it is.
   if (is_gone && is_transparent(stage_->page)) {
-    if (stage_->has_cells()) draw_way_out(picture, i, k);
+    if (stage_->has_cells()) draw_way_out(picture, i, shown + 1);
     return;
   }
   const std::vector<StandingWord> of_still = is_still ? words_.still(*stage_, layers_, sheet_, view_, panels_, i, shown) : std::vector<StandingWord>{};
@@ -128,10 +128,11 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) con
       layers_[l]->draw(picture, {panel, panel.motion().pose_at(shown), shown, k > shown, view_.corner(l, i), labels, is_still});
   if (!is_gone || !stage_->has_cells()) return;
   draw_veil(picture, i);
-  draw_way_out(picture, i, k);
+  draw_way_out(picture, i, shown + 1);
 }
 
-// At the edge of its cell, towards where the chain is meanwhile.
+// At the edge of its cell, towards where the chain is at frame k, the first behind those that are shown. Where it is later an arrow would swap
+// ends with each swing of a run that oscillates ever wider.
 void Film::draw_way_out(Picture& picture, std::size_t i, int k) const {
   constexpr double kLength = 0.11, kFromEdge = 0.012, kWide = 1.6;  // units of H; the last times an arrow's own size
   const Panel& panel = panels_[i];
@@ -141,7 +142,6 @@ void Film::draw_way_out(Picture& picture, std::size_t i, int k) const {
   if (!std::isfinite(norm(way)) || !(norm(way) > 0)) return;
   const Point u = unit(way);
   const double reach = std::min(r.width() / 2 / std::max(std::abs(u.x), kRoundOff), r.height() / 2 / std::max(std::abs(u.y), kRoundOff));
-  if (norm(way) < reach) return;  // it is back for a while
   const Color color = panel.motion().variant() ? panel.motion().variant()->color : stage_->theme.ink;
   draw_arrow(picture, middle + (reach - kFromEdge - kLength) * u, kLength * u, {.color = color, .size = kWide * view_.marks}, int(i));
 }

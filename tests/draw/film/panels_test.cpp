@@ -254,7 +254,7 @@ TEST_F(PanelFilm, HowFarARunHasBeenStandsOnAPageHigherThanWideToo) {
   EXPECT_THAT(test::words_of(film().frame(kFrames - 1)), HasSubstr("1\u00D710\u2075 m away"));
 }
 
-// An arrow at the edge points to where it is meanwhile, and its rails are those of the same machine beside it.
+// An arrow at the edge points to where it left, and its rails are those of the same machine beside it.
 TEST_F(PanelFilm, ARunThatLeftThePictureHasAnArrowTowardsIt) {
   add("first", sliding);
   add("wild", growing, true);
@@ -264,6 +264,22 @@ TEST_F(PanelFilm, ARunThatLeftThePictureHasAnArrowTowardsIt) {
   };
   const int last = kFrames - 1;
   EXPECT_GT(heads(two.frame(last)), heads(two.frame(0)));
+  // It stays, wherever the run swings to.
+  const auto tips = [&] {
+    const Film film = this->film();
+    std::vector<Point> found;
+    for (const int k : {last - 1, last})
+      for (const Polygon& one : test::all_of<Polygon>(film.frame(k)))
+        if (one.paint.fill == light_theme().side_b) found.push_back(one.corners[0]);
+    return found;
+  };
+  const std::vector<Point> before = tips();
+  for (const double far : {-1e5, 1e5, 0.0}) {
+    runs[1]->q.back() = far;
+    const std::vector<Point> now = tips();
+    ASSERT_EQ(now.size(), before.size()) << far;
+    for (std::size_t i = 0; i < now.size(); ++i) EXPECT_LT(test::distance(now[i], before[i]), 1e-12) << far;
+  }
 }
 
 TEST_F(PanelFilm, ARunThatEndsInsideThePictureIsDatedByItsEnd) {
