@@ -74,13 +74,19 @@ class Outlined : public Layer {
 
 class OutlinedTrail : public Outlined {
  public:
+  explicit OutlinedTrail(const Stage& stage) : on_rails_(runs_on_rails(stage)) {}
+
   UnderWords under_words() const override { return UnderWords::freely; }
 
   void draw(Picture& picture, const Shot& shot) const override {
+    if (on_rails_.contains(&shot.panel.motion())) return;
     const Color color = shot.panel.motion().variant()->color;
     const Theme& theme = *shot.panel.look().theme;
     draw_trail(picture, shot.panel.tip(), shot.k, toned(color, outline_look(shot)), shot.panel.clip(), theme.lines, theme.trail);
   }
+
+ private:
+  std::set<const StagedRun*> on_rails_;
 };
 
 class OutlinedChain : public Outlined {
@@ -157,8 +163,8 @@ std::unique_ptr<const Layer> make_layer_chain_links(const Stage&) {
 std::unique_ptr<const Layer> make_layer_chain_tip(const Stage&) {
   return std::make_unique<ChainTip>();
 }
-std::unique_ptr<const Layer> make_layer_outlined_trail(const Stage&) {
-  return std::make_unique<OutlinedTrail>();
+std::unique_ptr<const Layer> make_layer_outlined_trail(const Stage& stage) {
+  return std::make_unique<OutlinedTrail>(stage);
 }
 std::unique_ptr<const Layer> make_layer_outlined_chain(const Stage& stage) {
   return std::make_unique<OutlinedChain>(stage);

@@ -25,13 +25,40 @@ TrailPoint trail_point(const TipPath& path, double t, double now, double lines, 
           kTrailOpacity * fresh};
 }
 
+bool stays_on_rail(const StagedRun& motion) {
+  constexpr double kStill = 1e-6;   // rad or m: no such way is seen
+  constexpr double kBeside = 1e-6;  // m, of the end effector: round-off of places
+  const Chain& chain = motion.chain();
+  if (chain.end_effector < 0) return false;
+  const auto moves = [&](const Joint& joint) {
+    const double start = motion.trajectory().q_at(0)[std::size_t(joint.q_index)];
+    for (int k = 1; k < motion.samples(); ++k)
+      if (!(std::abs(motion.trajectory().q_at(k)[std::size_t(joint.q_index)] - start) <= kStill)) return true;
+    return false;
+  };
+  int slider = 0;
+  for (int b = chain.frames[std::size_t(chain.end_effector)].body; b > 0; b = chain.bodies[std::size_t(b)].parent) {
+    const Joint& joint = chain.bodies[std::size_t(b)].joint;
+    if (joint.kind == JointKind::floating) return false;
+    if (!moves(joint)) continue;
+    if (joint.kind != JointKind::prismatic || slider > 0) return false;
+    slider = b;
+  }
+  if (slider == 0) return false;
+  const Workspace& ws = motion.pose_at(0);
+  const Eigen::Isometry3d pose = pose_of(ws, slider);
+  const Eigen::Vector3d off = pose.inverse() * tip_position(chain, ws);
+  return off.cross(chain.bodies[std::size_t(slider)].joint.axis).norm() <= kBeside;
+}
+
 class TrailLayer : public Layer {
  public:
-  explicit TrailLayer(const Stage& stage) : theme_(&stage.theme) {}
+  explicit TrailLayer(const Stage& stage) : theme_(&stage.theme), on_rails_(runs_on_rails(stage)) {}
 
   UnderWords under_words() const override { return UnderWords::freely; }
 
   void draw(Picture& picture, const Shot& shot) const override {
+    if (on_rails_.contains(&shot.panel.motion())) return;
     draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip(), theme_->lines, theme_->trail);
   }
 
@@ -45,6 +72,7 @@ class TrailLayer : public Layer {
   }
 
   const Theme* theme_;
+  std::set<const StagedRun*> on_rails_;
 };
 
 class GhostsLayer : public Layer {
@@ -80,6 +108,14 @@ std::unique_ptr<const Layer> make_layer_trail(const Stage& stage) {
 
 std::unique_ptr<const Layer> make_layer_ghosts(const Stage& stage) {
   return std::make_unique<GhostsLayer>(stage);
+}
+
+std::set<const StagedRun*> runs_on_rails(const Stage& stage) {
+  std::set<const StagedRun*> found;
+  if (!stage.shows("chain")) return found;
+  for (const StagedRun& motion : stage.motions)
+    if (stays_on_rail(motion)) found.insert(&motion);
+  return found;
 }
 
 void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines, double length) {

@@ -1,6 +1,7 @@
 // What was: the way of the end effector behind it, and the chain as it stood at earlier instants.
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "core/frame_rate.hpp"
@@ -14,6 +15,9 @@ inline constexpr int kTrailDotsPerSecond = 10;
 inline constexpr double kTrailOpacity = 0.7;
 // The trail as it stands at frame k; `lines`: times its width; `length`: how far it goes back, s.
 void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines = 1, double length = kTrailSeconds);
+
+// Those whose end effector only goes to and fro on one rail that is drawn, and shows its way: a trail along that would be taken for a rod.
+std::set<const StagedRun*> runs_on_rails(const Stage& stage);
 
 // Onion skins: the chain at earlier instants, equally spaced in time, fainter with age.
 inline constexpr int kMostGhosts = 6;

@@ -153,6 +153,17 @@ TEST_F(RrFilm, DrawsTheTrailAboveCarriedRailsAndBelowSliders) {
   EXPECT_EQ(order, (std::vector<char>{'b', 'r', 't', 'b'}));  // carriage, its rail, trail, slider
 }
 
+// On the one rail that the end effector goes along a trail would be taken for a rod.
+TEST_F(RrFilm, HasNoTrailAlongTheOnlyRailThatMoves) {
+  const Chain pp = test::model("pp");
+  const auto trails = [&](const Trajectory& slide) { return test::all_of<Trail>(Film(scene, pp, slide, slide.size(), fonts()).frame(100)).size(); };
+  const Trajectory one = test::run_of([](double t) { return std::vector<double>{0.3, std::sin(t)}; }, 120);
+  EXPECT_EQ(trails(one), 0u);
+  EXPECT_EQ(trails(test::run_of([](double t) { return std::vector<double>{0.3 * t, std::sin(t)}; }, 120)), 1u);
+  scene.draw = {"trail"};
+  EXPECT_EQ(trails(one), 1u) << "no rail is drawn";
+}
+
 TEST_F(RrFilm, NamesItsEllipseAndItsScale) {
   scene.draw.insert(scene.draw.end(), {"ellipse", "legend"});
   const Film film(scene, chain, run, run.size(), fonts());
