@@ -108,7 +108,7 @@ class VectorLayer : public Layer {
 
   void draw(Picture& picture, const Shot& shot) const override {
     const Panel& panel = shot.panel;
-    // Arcs of neighbouring joints stay apart.
+    // Arcs of neighbouring joints of a stretched chain stay apart; they have one size over the film, so that equal torques look alike.
     const double link = panel.motion().skeleton().shortest_link * panel.camera().scale;
     const double arcs = link > 0 ? std::clamp(kArcOfLink * link / (panel.marks() * size::kTorqueArc), kSmallestArc, 1.0) : 1;
     const Asides& asides = asides_of(panel, shot.k);
@@ -116,7 +116,6 @@ class VectorLayer : public Layer {
     Names names;
     std::vector<WorldVector> vectors = vectors_at_(panel.motion(), shot.ws, shot.k);
     for (WorldVector& vector : vectors) vector.size = arcs;
-    pen_.keep_apart(vectors, panel.camera(), panel.marks());
     for (WorldVector& vector : vectors) {
       const VectorName name = names.next(vector);
       if (const auto one = asides.find(name); one != asides.end()) vector.aside = one->second[std::size_t(shot.k)];

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/format.hpp"
-#include "draw/layers/arcs_apart.hpp"
 #include "draw/page/arrow.hpp"
 #include "draw/page/sheet.hpp"
 #include "draw/robot/joints.hpp"
@@ -287,30 +286,10 @@ double VectorPen::cut_beyond(VectorKind kind) const {
   return scales_.of(kind).full * (kind == VectorKind::torque ? kWidestTurn / kTurnOfFull : size::kArrowCut / size::kLongestArrow);
 }
 
-double VectorPen::radius_of(const WorldVector& vector, double marks) {
-  return vector.size * marks * size::kTorqueArc;
-}
-
-double VectorPen::grown(const WorldVector& vector) const {
-  return std::min(1.0, scales_.of(vector.kind).on_page(std::abs(vector.value.dot(vector.axis))) / (kWholeRadius * std::numbers::pi / 180));
-}
-
-void VectorPen::keep_apart(std::vector<WorldVector>& vectors, const Camera& camera, double marks) const {
-  std::vector<std::size_t> torques;
-  std::vector<TorqueArc> arcs;
-  for (std::size_t i = 0; i < vectors.size(); ++i) {
-    if (vectors[i].kind != VectorKind::torque) continue;
-    torques.push_back(i);
-    arcs.push_back({camera.project(vectors[i].place), grown(vectors[i]) * radius_of(vectors[i], marks)});
-  }
-  const std::vector<double> sizes = arcs_apart(arcs, marks);
-  for (std::size_t i = 0; i < torques.size(); ++i) vectors[torques[i]].size *= sizes[i];
-}
-
 void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const Camera& camera, double marks,
                             int clip, MarkLabels& labels) const {
   const Point center = camera.project(vector.place);
-  const double radius = radius_of(vector, marks);
+  const double radius = vector.size * marks * size::kTorqueArc;
   const Camera seen = camera.seen_at(vector.place);
   const Circle circle = circle_about(vector.axis, seen);
   const Point u = radius * on_page(circle.top, seen), w = radius * on_page(circle.quarter, seen);
@@ -320,7 +299,7 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double widest = kWidestTurn * std::numbers::pi / 180;
   const double wished = scale.on_page(std::abs(value)), turn = std::min(wished, widest);
   style.broken = broken(wished, widest);
-  const double grown = this->grown(vector);
+  const double grown = std::min(1.0, turn / (kWholeRadius * std::numbers::pi / 180));
   // What sets an arc off from links would bite into the disc of its joint.
   style.casing = theme_->background.faded(std::clamp(grown * radius / (marks * kClearOfJoint) - 1, 0.0, 1.0));
   draw_turn(picture, center, grown * u, grown * w, value > 0 ? turn : -turn, style, clip);

@@ -125,8 +125,6 @@ class VectorPen {
   PageLine line_of(const WorldVector& vector, const Camera& camera, double marks) const;
   // What is larger is cut.
   double cut_beyond(VectorKind kind) const;
-  // Arcs of torques whose joints come close to one another get other sizes (draw/layers/arcs_apart).
-  void keep_apart(std::vector<WorldVector>& vectors, const Camera& camera, double marks) const;
   // The height of their names' letters, units of H.
   double em(double marks) const { return scaled(std::max(size::kSymbol * std::sqrt(marks), kSmallestText), text_scale_); }
   // Its label goes to `labels`, which are drawn over all vectors.
@@ -134,9 +132,6 @@ class VectorPen {
             MarkLabels& labels) const;
 
  private:
-  // Of the arc of a torque; it is smaller by `grown` where it turns by little.
-  static double radius_of(const WorldVector& vector, double marks);
-  double grown(const WorldVector& vector) const;
   struct Straight {
     Point shift, v;  // of the tail from the place; units of H
     double broken = 0;
