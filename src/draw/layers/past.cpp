@@ -79,7 +79,8 @@ class GhostsLayer : public Layer {
  public:
   explicit GhostsLayer(const Stage& stage) : shows_chain_(stage.shows("chain")) {}
 
-  UnderWords under_words() const override { return UnderWords::freely; }
+  // A word on an earlier pose is taken for its name.
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
 
   void draw(Picture& picture, const Shot& shot) const override {
     const Panel& panel = shot.panel;

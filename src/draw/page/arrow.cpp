@@ -18,13 +18,13 @@ constexpr double kSpeck = 1e-6;        // units of H: no direction can be seen
 constexpr double kSameShape = 1e-9;    // relative, to tell a circle from an ellipse
 constexpr double kCasing = 0.0028;     // units of H, on each side
 
-// What lies below an arrow, for one that has a casing.
-std::optional<ArrowStyle> casing_of(const ArrowStyle& style) {
+// What lies below an arrow, for one that has a casing. `grown`: the size of its head, of the usual one: what is hardly there would be a speck of casing.
+std::optional<ArrowStyle> casing_of(const ArrowStyle& style, double grown) {
   if (!style.casing) return std::nullopt;
   ArrowStyle wide = style;
   wide.color = style.casing->faded(style.color.a);
   wide.casing.reset();
-  wide.around = std::min(1.0, style.size) * kCasing;
+  wide.around = std::min({1.0, style.size, grown}) * kCasing;
   return wide;
 }
 
@@ -86,10 +86,10 @@ void draw_curve(Picture& picture, Point center, Point u, Point w, double from, d
 void draw_arrow(Picture& picture, Point tail, Point v, const ArrowStyle& style, int clip) {
   const double length = norm(v);
   if (!(length > kSpeck)) return;
-  if (const auto casing = casing_of(style)) draw_arrow(picture, tail, v, *casing, clip);
   const Point along = unit(v), tip = tail + v;
   const double head = std::min(style.size * size::kArrowHead, kHeadOfShort * length);
   const double grow = head / size::kArrowHead, half_width = grow * size::kArrowHeadWidth / 2;
+  if (const auto casing = casing_of(style, grow)) draw_arrow(picture, tail, v, *casing, clip);
   const Point base = tip - head * along;
   // The shaft ends inside of the head, so that no seam shows; round ends begin behind the tail.
   const Point end = base + 0.2 * head * along;
@@ -115,11 +115,11 @@ void draw_turn(Picture& picture, Point center, Point u, Point w, double turn, co
                int clip) {
   const double radius = std::max(norm(u), norm(w));
   if (!(radius > kSpeck) || turn == 0) return;
-  if (const auto casing = casing_of(style)) draw_turn(picture, center, u, w, turn, *casing, clip);
   const double sign = turn > 0 ? 1 : -1;
   // The angle that a head takes.
   const double head = std::min(style.size * size::kArrowHead / radius, kHeadOfShort * std::abs(turn));
   const double grow = head * radius / size::kArrowHead;
+  if (const auto casing = casing_of(style, grow)) draw_turn(picture, center, u, w, turn, *casing, clip);
   const double width = style.lines * std::min(style.size, grow) * size::kArrowShaft + 2 * style.around;
   const double begin = -turn / 2, tip_at = turn / 2, end = tip_at - 0.8 * sign * head;
   if (style.broken > 0) {

@@ -24,6 +24,19 @@ TEST(Arrow, HasAShaftAsWideAsTheLinesOfAStyleAndItsHeadAsEver) {
   EXPECT_GT(half, shaft(wide).radius);
 }
 
+// What is hardly there would be a speck in the background's colour on what lies below.
+TEST(Arrow, AShortOneHasAThinCasing) {
+  const auto around = [](double length) {
+    Picture picture;
+    draw_arrow(picture, {0.2, 0.2}, {length, 0}, {.color = color_of(0), .size = 1, .casing = color_of(1)}, -1);
+    const std::vector<Polygon> heads = test::all_of<Polygon>(picture);
+    EXPECT_EQ(heads.size(), 2u);
+    return heads.front().paint.stroke_width / 2;
+  };
+  EXPECT_DOUBLE_EQ(around(0.3), around(0.1));
+  EXPECT_LT(around(0.004), 0.2 * around(0.1));
+}
+
 TEST(Arrow, ARoundOneHasThemToo) {
   Picture plain, wide;
   draw_turn(plain, {0.5, 0.5}, {0.1, 0}, {0, 0.1}, 2, {color_of(0), 1}, -1);
