@@ -195,7 +195,7 @@ class VectorLayer : public Layer {
       Names names;
       for (const WorldVector& vector : vectors_at_(motion, ws, k)) {
         const VectorName name = names.next(vector);
-        numbers.try_emplace(name, std::size_t(panel.last()) + 1).first->second[std::size_t(k)] = number_of(vector);
+        numbers.try_emplace(name, std::size_t(panel.last()) + 1).first->second[std::size_t(k)] = vector.extreme.value_or(number_of(vector));
         cuts.emplace(name, pen_.cut_beyond(vector.kind));
       }
     }
@@ -299,11 +299,13 @@ class TorqueRun {
     std::vector<Magnitude> magnitudes;
     for (std::size_t at = 0; at < tau_.size(); ++at) magnitudes.push_back({std::abs(tau_[at]), lasts(t, at / nv_)});
     const double full = full_magnitude(std::move(magnitudes));
+    const std::vector<double> curve = torques_along(*motion.simulation(), motion.curve_run());
     const int keeps_name = int(std::lround(kKeepsName * stage.page.video.fps.value()));
     for (std::size_t i = 0; i < nv_; ++i) {
       std::vector<bool> rests(t.size());
       for (std::size_t k = 0; k < t.size(); ++k) rests[k] = !(std::abs(tau_[k * nv_ + i]) >= kRestBelow * full);
       rings_[i] = rings_along(t, rests);
+      extremes_.push_back(extremes_near(of_freedom(tau_, i), t, of_freedom(curve, i), motion.curve_run().t));
       for (int k = 0, named = -1; k < int(t.size()); ++k) {
         if (!(std::abs(tau_[std::size_t(k) * nv_ + i]) > full * kLeastNamed * kWidestTurn / kTurnOfFull)) continue;
         for (int between = named + 1; named >= 0 && k - named <= keeps_name && between < k; ++between) named_[i][std::size_t(between)] = true;
@@ -318,14 +320,22 @@ class TorqueRun {
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
   // Whether it is too small for a name, but only for a moment.
   bool keeps_name(int freedom, int k) const { return named_[std::size_t(freedom)][std::size_t(k)]; }
+  double extreme(int freedom, int k) const { return extremes_[std::size_t(freedom)][std::size_t(k)]; }
   bool is_labelled() const { return labelled_; }
   std::string word(int freedom) const { return nv_ == 1 ? "tau" : "tau_{" + std::to_string(freedom + 1) + "}"; }
 
  private:
+  std::vector<double> of_freedom(const std::vector<double>& tau, std::size_t i) const {
+    std::vector<double> own;
+    for (std::size_t at = i; at < tau.size(); at += nv_) own.push_back(tau[at]);
+    return own;
+  }
+
   std::size_t nv_;
   std::vector<double> tau_;                 // nv a sample
   std::vector<bool> shown_;                 // a freedom
   std::vector<std::vector<double>> rings_;  // a freedom, a sample
+  std::vector<std::vector<double>> extremes_;  // ... the same
   std::vector<std::vector<bool>> named_;  // ... the same
   bool labelled_ = true;
 };
@@ -367,6 +377,7 @@ std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, con
                          run.keeps_name(joint.v_index, k), chain.planar && chain.bodies[b].parent == 0 ? reach_of(chain, ws, int(b)) : 0});
     else
       vectors.push_back({VectorKind::joint_force, place, *own * axis, Vector3d::Zero(), axis, label});
+    vectors.back().extreme = run.extreme(joint.v_index, k);
   }
   return vectors;
 }

@@ -76,4 +76,16 @@ std::vector<std::optional<Peak>> peaks_along(const std::vector<double>& values, 
   return peaks;
 }
 
+std::vector<double> extremes_near(std::span<const double> values, std::span<const double> t, std::span<const double> curve, std::span<const double> curve_t) {
+  std::vector<double> extremes(values.begin(), values.end());
+  for (std::size_t k = 0; k < extremes.size(); ++k) {
+    const double from = t[k > 0 ? k - 1 : 0], to = t[std::min(k + 1, t.size() - 1)];
+    for (auto at = std::ranges::lower_bound(curve_t, from); at != curve_t.end() && *at <= to; ++at) {
+      const double one = curve[std::size_t(at - curve_t.begin())];
+      if (in_one_sense(one, values[k]) && std::abs(one) > std::abs(extremes[k])) extremes[k] = one;
+    }
+  }
+  return extremes;
+}
+
 }  // namespace chainreel

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace chainreel {
@@ -15,5 +16,9 @@ struct Peak {
 // What is said at each frame of a film of so many a second: of `values`, those beyond `cut` are cut. Passages of one sense that lie
 // near to one another are one; what is cut for so short between others that nobody could read its number has none.
 std::vector<std::optional<Peak>> peaks_along(const std::vector<double>& values, double cut, double fps);
+
+// Frames pass by what lies between them, and curves beside them do not: of each of `values` at instants `t` the largest up to its
+// neighbours, in its sense, of the same at the instants `curve_t`, s, rising.
+std::vector<double> extremes_near(std::span<const double> values, std::span<const double> t, std::span<const double> curve, std::span<const double> curve_t);
 
 }  // namespace chainreel

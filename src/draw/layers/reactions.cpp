@@ -77,6 +77,23 @@ ReactionRun::ReactionRun(const StagedRun& motion) : motion_(&motion) {
       place.is_vector &= std::abs(size - sums.length) <= close;
     }
   }
+  if (!at_.empty())
+    for (const Reaction& one : at_.front()) find_extremes(one.frame, one.rows);
+}
+
+void ReactionRun::find_extremes(int frame, const std::vector<int>& rows) {
+  Place& place = places_[frame];
+  if (rows.empty() || !(place.is_sum || place.is_vector)) return;
+  const auto along = [&](const Trajectory& run) {
+    std::vector<double> numbers;
+    for (int k = 0; k < run.size(); ++k) {
+      const Sums sums = sums_of(rows, run.lambda_at(k));
+      numbers.push_back(rows.size() > 1 && place.is_vector ? sums.length : sums.sum);
+    }
+    return numbers;
+  };
+  const Trajectory &run = motion_->trajectory(), &curve = motion_->curve_run();
+  place.extremes = extremes_near(along(run), run.t, along(curve), curve.t);
 }
 
 WorldVector ReactionRun::vector_of(const Reaction& one, const Workspace& ws, int k) const {
@@ -86,6 +103,7 @@ WorldVector ReactionRun::vector_of(const Reaction& one, const Workspace& ws, int
   vector.pushes = place.is_pushed;
   const std::size_t rows = one.rows.size();
   if (rows == 0 || rows > kMostInName) return vector;
+  if (!place.extremes.empty()) vector.extreme = place.extremes[std::size_t(k)];
   if (rows > 1 && place.is_vector) {
     vector.label = "-(" + multipliers(one.rows, run.rows, ", ") + ")";
   } else if (place.is_sum) {

@@ -25,7 +25,9 @@ class ReactionRun {
     bool is_pushed = true;  // one row alone pushes it towards its link
     bool is_sum = true;     // of multipliers, all along one direction: two equal lines
     bool is_vector = true;  // whose components they are: a pin
+    std::vector<double> extremes{};  // at each sample, of their sum or of the vector's length
   };
+  void find_extremes(int frame, const std::vector<int>& rows);
   WorldVector vector_of(const Reaction& one, const Workspace& ws, int k) const;
 
   const StagedRun* motion_;

@@ -51,6 +51,7 @@ struct WorldVector {
   double size = 1;  // of a torque's arc: less where links are short on the page
   bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
   std::optional<Amount> amount{};
+  std::optional<double> extreme{};  // its number where that is largest between the frames beside this one
   double aside = 0;     // units of H, to the left of its own way: it stands beside what it would hide, and a line ties it to its place
 };
 

@@ -302,9 +302,11 @@ std::vector<double> opacities(const Track& track, const std::vector<int>& way, d
     while (end < track.size() && way[end] == way[begin] && way[end] != kNowhere && goes_on(track, end, way[end])) ++end;
     if (way[begin] == kNowhere) continue;
     const bool opens = track[begin].frame == 0, closes = track[end - 1].frame == frames - 1;
+    // A stay too short for that is whole at the film's end of it: posters have whole words.
+    const int whole = std::min(fade + 1, int(end - begin));
     for (std::size_t m = begin; m < end; ++m) {
       const int in = opens ? fade : int(m - begin) + 1, out = closes ? fade : int(end - m);
-      strength[m] = std::min({1.0, double(in) / (fade + 1), double(out) / (fade + 1)});
+      strength[m] = std::min({1.0, double(in) / (closes ? whole : fade + 1), double(out) / (opens ? whole : fade + 1)});
       if (in >= fade && out >= fade) strength[m] = 1;
     }
   }

@@ -71,5 +71,12 @@ TEST(Peaks, LeaveOutWhatNobodyReads) {
   for (std::size_t k = 0; k < peaks.size(); ++k) EXPECT_FALSE(peaks[k]) << k;
 }
 
+TEST(Peaks, AreThoseOfTheCurveBetweenFrames) {
+  const std::vector<double> t{0, 1, 2, 3}, values{-1, -2, -2, 1}, curve{-1, -1, -2, -9, -2, 5, 1}, curve_t{0, 0.5, 1, 1.5, 2, 2.5, 3};
+  EXPECT_EQ(extremes_near(values, t, curve, curve_t), (std::vector<double>{-2, -9, -9, 5}));
+  // Negative control: of nothing between them.
+  EXPECT_EQ(extremes_near(std::vector<double>{1.0}, std::vector<double>{0.0}, std::vector<double>{1.0}, std::vector<double>{0.0}), std::vector<double>{1.0});
+}
+
 }  // namespace
 }  // namespace chainreel
