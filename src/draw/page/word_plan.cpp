@@ -302,8 +302,10 @@ std::vector<double> opacities(const Track& track, const std::vector<int>& way, d
     while (end < track.size() && way[end] == way[begin] && way[end] != kNowhere && goes_on(track, end, way[end])) ++end;
     if (way[begin] == kNowhere) continue;
     const bool opens = track[begin].frame == 0, closes = track[end - 1].frame == frames - 1;
-    // A stay too short for that is whole at the film's end of it: posters have whole words.
-    const int whole = std::min(fade + 1, int(end - begin));
+    // A stay too short for that is whole at the film's end of it, unless the word stands elsewhere next: posters have whole words.
+    const auto is_away = [&](std::size_t m) { return way[m] == kNowhere; };
+    const bool is_alone = (begin == 0 || is_away(begin - 1)) && (end == track.size() || is_away(end));
+    const int whole = is_alone ? std::min(fade + 1, int(end - begin)) : fade + 1;
     for (std::size_t m = begin; m < end; ++m) {
       const int in = opens ? fade : int(m - begin) + 1, out = closes ? fade : int(end - m);
       strength[m] = std::min({1.0, double(in) / (closes ? whole : fade + 1), double(out) / (opens ? whole : fade + 1)});
