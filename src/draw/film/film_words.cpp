@@ -27,7 +27,7 @@ class Gatherer {
       : layers_(layers), view_(view), panels_(panels) {}
 
   // What stands in the way of words at a frame of a panel, and its words.
-  void draw(std::size_t i, int k, std::vector<Obstacle>& obstacles, MarkLabels& labels) const {
+  void draw(std::size_t i, int k, std::vector<Obstacle>& obstacles, MarkLabels& labels, bool is_still = false) const {
     const Panel& panel = panels_[i];
     const int shown = std::clamp(k, 0, panel.last());
     const Workspace& ws = panel.motion().pose_at(shown);
@@ -35,7 +35,7 @@ class Gatherer {
     for (std::size_t l = 0; l < layers_.size(); ++l) {
       const Layer& layer = *layers_[l];
       if (!layer.is_of(panel.motion()) || (layer.under_words() == UnderWords::freely && !layer.has_words())) continue;
-      layer.draw(pictures.of(layer), {panel, ws, shown, k > shown, view_.corner(l, i), labels});
+      layer.draw(pictures.of(layer), {panel, ws, shown, k > shown, view_.corner(l, i), labels, is_still});
     }
     pictures.add_to(obstacles);
     if (!panel.motion().shapes()) return;
@@ -44,9 +44,9 @@ class Gatherer {
   }
 
   // The same; chains in outline lie over the first one.
-  MarkLabels gather(std::size_t i, int k, const Stage& stage, std::vector<Obstacle>& obstacles) const {
+  MarkLabels gather(std::size_t i, int k, const Stage& stage, std::vector<Obstacle>& obstacles, bool is_still = false) const {
     MarkLabels labels, others;
-    draw(i, k, obstacles, labels);
+    draw(i, k, obstacles, labels, is_still);
     if (stage.is_ghost())
       for (std::size_t j = 1; j < panels_.size(); ++j) draw(j, k, obstacles, others);
     return labels;
@@ -130,7 +130,7 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
   if (panels_.empty() || panels_[panel].words.empty()) return {};
   const Gatherer gatherer(layers, view, panels);
   std::vector<Obstacle> obstacles = gatherer.once(panel, view.shared_page(stage, sheet));
-  std::vector<MarkWord> wishes = gatherer.gather(panel, frame, stage, obstacles).words();
+  std::vector<MarkWord> wishes = gatherer.gather(panel, frame, stage, obstacles, true).words();
   std::vector<StandingWord> words = standing_in(panels_[panel].area, panels_[panel].words.at(frame), wishes);
   const auto is_left_out = [](const StandingWord& word) { return !(word.opacity > 0); };
   const bool has_left_out = std::any_of(words.begin(), words.end(), is_left_out);

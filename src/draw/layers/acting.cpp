@@ -120,6 +120,7 @@ class VectorLayer : public Layer {
       const VectorName name = names.next(vector);
       if (const auto one = asides.find(name); one != asides.end()) vector.aside = one->second[std::size_t(shot.k)];
       if (const auto one = peaks.find(name); one != peaks.end()) vector.peak = one->second[std::size_t(shot.k)];
+      if (shot.is_still && vector.peak) vector.peak = Peak{number_of(vector), true, std::abs(number_of(vector)) > pen_.cut_beyond(vector.kind)};
       if (vector.kind == VectorKind::torque && link > 0 && link < kLinkOfWords * pen_.em(panel.marks())) vector.label.clear();
       pen_.draw(picture, vector, panel.camera(), panel.marks(), panel.clip(), shot.labels);
     }

@@ -9,7 +9,8 @@
 namespace chainreel {
 namespace {
 
-constexpr double kPeakStays = 0.3;  // s of the film before and after what is cut: time to read its number
+constexpr double kPeakStays = 0.2;     // s before and after what is cut: the number comes and goes in it, and has time to be read
+constexpr double kSamePassage = 0.6;         // s between two that are told as one
 constexpr double kStillActs = 0.1;  // of what is cut: below this a number stands only as long as it takes to be read
 
 // Frames [begin, end) at which a number stands.
@@ -23,12 +24,12 @@ bool in_one_sense(double a, double b) {
 }
 
 // Those that are cut, of one sense each.
-std::vector<NumberedPassage> cut_passages(const std::vector<double>& values, double cut, int stays) {
+std::vector<NumberedPassage> cut_passages(const std::vector<double>& values, double cut, int apart) {
   std::vector<NumberedPassage> passages;
   for (int k = 0; k < int(values.size()); ++k) {
     const double value = values[std::size_t(k)];
     if (!(std::abs(value) > cut)) continue;
-    if (passages.empty() || k - passages.back().end > 2 * stays || !in_one_sense(value, passages.back().value)) {
+    if (passages.empty() || k - passages.back().end > apart || !in_one_sense(value, passages.back().value)) {
       passages.push_back({k, k + 1, value});
       continue;
     }
@@ -48,9 +49,9 @@ void lengthen(NumberedPassage& passage, const std::vector<double>& values, doubl
   const int begin = std::max(first, passage.begin - stays), end = std::min(last, passage.end + stays);
   while (passage.begin > begin && acts(passage.begin - 1)) --passage.begin;
   while (passage.end < end && acts(passage.end)) ++passage.end;
-  while (passage.end - passage.begin < shortest && (passage.begin > begin || passage.end < end)) {
-    if (passage.end < end) ++passage.end;
-    if (passage.begin > begin && passage.end - passage.begin < shortest) --passage.begin;
+  while (passage.end - passage.begin < shortest && (passage.begin > first || passage.end < last)) {
+    if (passage.end < last) ++passage.end;
+    if (passage.begin > first && passage.end - passage.begin < shortest) --passage.begin;
   }
 }
 
@@ -65,7 +66,7 @@ std::vector<std::optional<Peak>> peaks_along(const std::vector<double>& values, 
   const int count = int(values.size());
   const int stays = int(std::lround(kPeakStays * fps)), shortest = std::min(count, int(std::lround(kShortestStay * fps)));
   std::vector<std::optional<Peak>> peaks(values.size());
-  std::vector<NumberedPassage> passages = cut_passages(values, cut, stays);
+  std::vector<NumberedPassage> passages = cut_passages(values, cut, int(std::lround(kSamePassage * fps)));
   for (std::size_t i = 0; i < passages.size(); ++i) {
     NumberedPassage& passage = passages[i];
     lengthen(passage, values, cut, i > 0 ? passages[i - 1].end : 0, i + 1 < passages.size() ? passages[i + 1].begin : count, stays, shortest);

@@ -1,5 +1,5 @@
 // Numbers of vectors that are longer than their scale has room for. A number that runs cannot be read, and one that is there for an
-// instant neither: from a while before such a passage until a while behind it one number stands, that of its peak.
+// instant neither: for as long as such a passage lasts, and for a blink before and after, one number stands, that of its peak.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,7 @@ namespace chainreel {
 struct Peak {
   double value = 0;        // with its sign
   bool is_steady = false;  // what it says is true at all frames at which it stands, and not at the peak alone
+  bool is_told = true;     // else the word has its place, but names what it stands at: in a picture by itself of what is not cut there
 };
 
 // What is said at each frame of a film of so many a second: of `values`, those beyond `cut` are cut. Passages of one sense that lie

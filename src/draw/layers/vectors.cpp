@@ -311,7 +311,7 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   picture.add(Ellipse{center, {dot, 0}, {0, dot}, {style.color, {}, 0}}, clip);
   // A word beside a dot is the name of nothing.
   if (vector.label.empty() || !(turn > kLeastNamed * widest || vector.keeps_name || vector.peak)) return;
-  const TextLine& text = label(vector, marks, vector.peak.has_value());
+  const TextLine& text = label(vector, marks, vector.peak && vector.peak->is_told);
   const double half_head = marks * size::kArrowHeadWidth / 2;
   const double off = std::max({grown * radius, kNearestName * radius, kLeastLabelled * marks}) + half_head + kVectorLabelGap;
   MarkWord word{word_name(vector), text, {}, std::nullopt, Tie{center, grown * radius + half_head, style.color}};
@@ -363,7 +363,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const bool is_small = norm(arrow.v) < kLeastLabelled * marks;
   const bool stays = vector.kind == VectorKind::push || vector.kind == VectorKind::weight || vector.peak;
   if (vector.label.empty() || (is_small && !stays)) return;
-  const TextLine& text = label(vector, marks, is_small || vector.peak);
+  const TextLine& text = label(vector, marks, vector.peak ? vector.peak->is_told : is_small);
   MarkWord word{word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)};
   word.anchor = tail + arrow.v;
   // Where the arrow grows and turns quicker than an eye follows, its number rides along with its place.

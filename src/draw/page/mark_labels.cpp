@@ -176,7 +176,7 @@ const TextLine& MarkWord::shape_for(const Rect& box) const {
 }
 
 StandingWord standing_at(const MarkWord& word, const ChosenPlace& chosen, const Rect& area) {
-  if (chosen.place == ChosenPlace::kNowhere) return {{}, 0, word.anchor};
+  if (chosen.place == ChosenPlace::kNowhere || std::size_t(chosen.place) >= word.places.size()) return {{}, 0, word.anchor};
   return {moved_into(area, word.places[std::size_t(chosen.place)]), chosen.opacity, word.anchor};
 }
 

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kPale = 0.3;           // opacity: fainter lines may lie below words
 constexpr double kPieceOfArc = 0.3;     // rad
-constexpr double kFadeSeconds = 0.12;
 constexpr double kLeavesWith = 0.03;    // units of H: a place that sticks out of the area by more is none
 constexpr std::size_t kCrowdOfWords = 60;      // words: of more each has its best place or none
 // What it costs: a second without the word, on what may yield, at a place for each one before it in the list; and a

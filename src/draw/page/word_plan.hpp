@@ -30,7 +30,7 @@ std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield = fals
 inline constexpr double kWordStep = 0.02, kAnchorStep = 0.1;
 bool moves_on(const StandingWord& before, const StandingWord& now);
 // A word that is there for less cannot be read: a glance takes a quarter of a second. The first and the last frame of a film stand longer.
-inline constexpr double kShortestStay = 0.3;  // s
+inline constexpr double kShortestStay = 0.3, kFadeSeconds = 0.12;  // s; the fade is of its beginning and its end
 // The rate of frames of a picture by itself, which is looked at for so long that any word is worth its place.
 inline constexpr double kLooksPerSecond = 0.1;
 inline constexpr double kBetweenWords = 0.006;
