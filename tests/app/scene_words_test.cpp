@@ -163,5 +163,20 @@ TEST_P(WordsOfEveryScene, TellOneNumberOnPagesOfEverySize) {
     for (const std::string& number : numbers_told(scene, width, height)) EXPECT_TRUE(told.contains(number)) << number << " at " << width;
 }
 
+// Frames of a film tell the peak of what is cut for as long as one reads it; a picture by itself would be taken for that instant's.
+TEST_P(WordsOfEveryScene, OfAPictureByItselfTellNoPeak) {
+  const Fonts fonts;
+  const PreparedFilm prepared = load_film("assets/scenes/" + GetParam() + ".yaml", {}, false);
+  const Runs runs(prepared);
+  const Film film = runs.pictures(runs.frames_shown(int(runs.times().size())), fonts);
+  constexpr int kApart = 7;  // frames
+  int in_film = 0;
+  for (int k = 0; k < film.frame_count(); k += kApart) {
+    in_film += test::words_of(film.frame(k)).find("peak") != std::string::npos;
+    EXPECT_EQ(test::words_of(film.still(k)).find("peak"), std::string::npos) << k;
+  }
+  if (GetParam() == "slider_crank") EXPECT_GT(in_film, 0) << "negative control";
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -74,6 +74,13 @@ std::vector<Rect> places_along(const TextLine& label, Point tail, Point v, doubl
   return places;
 }
 
+// Of these the places that lie aslant beyond the tip.
+std::vector<bool> beyond_tip() {
+  std::vector<bool> closed(13, false);
+  for (const std::size_t i : {1, 2, 9, 11}) closed[i] = true;
+  return closed;
+}
+
 // Whether a place in this direction from the middle of an arc of half axes u and w is at the arc, or at least not across its joint,
 // where it would be taken for the name of what stands there.
 bool is_beside_turn(Point direction, Point u, Point w, double turn) {
@@ -366,6 +373,8 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const TextLine& text = label(vector, marks, vector.peak ? vector.peak->is_told : is_small);
   MarkWord word{word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)};
   word.anchor = tail + arrow.v;
+  // Of one that stands beside its link a word beyond its tip is at what acts on the next joint, and would be taken for its name.
+  if (vector.aside != 0) word.closed = beyond_tip();
   // Where the arrow grows and turns quicker than an eye follows, its number rides along with its place.
   if (vector.peak) {
     word.anchor = tail;
