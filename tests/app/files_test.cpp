@@ -188,9 +188,7 @@ class EveryCall : public testing::TestWithParam<const char*> {
 
 TEST_P(EveryCall, ThatFailsOnceLeavesWholeFilesAndIsToldInALine) {
   const bool is_memory = std::string(GetParam()) == "memory";
-#ifdef __SANITIZE_ADDRESS__
-  if (is_memory) GTEST_SKIP() << "the sanitizer's memory does not fail";
-#endif
+  if (kIsSanitized && is_memory) GTEST_SKIP() << "the sanitizer's memory does not fail";
   const TemporaryFolder whole;
   const ProgramResult good = render(whole, {{"FAIL_COUNTED", whole.file("count")}});
   ASSERT_EQ(good.status, 0) << good.err;
@@ -274,9 +272,7 @@ TEST(Fonts, ThatCannotBeOpenedAreToldAsFiles) {
 
 // From what hardly holds the program itself to what holds a picture too; without the room the renderer's library crashes.
 TEST(Memory, ThatIsShortIsExitSeven) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "a sanitizer's shadow takes terabytes of address space";
-#endif
+  if (kIsSanitized) GTEST_SKIP() << "a sanitizer's shadow takes terabytes of address space";
   int refused = 0, drawn = 0;
   for (int limit = 100; limit <= 520; limit += 20) {
     const TemporaryFolder folder;
@@ -293,9 +289,7 @@ TEST(Memory, ThatIsShortIsExitSeven) {
 
 // Encoders and the loader of libraries tell it in their own ways.
 TEST(Memory, ThatIsShortForAFilmIsExitSevenToo) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "a sanitizer's shadow takes terabytes of address space";
-#endif
+  if (kIsSanitized) GTEST_SKIP() << "a sanitizer's shadow takes terabytes of address space";
   for (const auto& [limit, name] : {std::pair{150, "a.mp4"}, {520, "a.mp4"}, {560, "a.mp4"}, {580, "a.mp4"}, {560, "a.webm"}}) {
     const TemporaryFolder folder;
     const ProgramResult result = shell("ulimit -v " + std::to_string(limit * 1000) +

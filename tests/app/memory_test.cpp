@@ -8,12 +8,6 @@
 namespace chainreel {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool kIsSanitized = true;  // which keeps what was freed
-#else
-constexpr bool kIsSanitized = false;
-#endif
-
 // KiB of a run of the program, which is to succeed.
 long peak_of(const Words& arguments) {
   const ProgramResult result = run_program(arguments);
@@ -24,7 +18,7 @@ long peak_of(const Words& arguments) {
 // Words of all marks, three plots of all samples, trails and ghosts. Of a frame more the run itself is kept, some 40 numbers; all places
 // of its words are 600.
 TEST(Memory, OfAFilmDoesNotGrowWithItsLength) {
-  if (kIsSanitized) GTEST_SKIP();
+  if (kIsSanitized) GTEST_SKIP() << "the sanitizer keeps what was freed";
   const TemporaryFolder folder;
   const auto film_of = [&](int frames) {
     return peak_of({"render", "rr_forces", "--set", "duration=" + std::to_string(frames / 60), "--set", "plot=[energy, q, tau]", "--width", "160",
@@ -38,7 +32,7 @@ TEST(Memory, OfAFilmDoesNotGrowWithItsLength) {
 
 // A row is written as it comes: as text it has 200 bytes.
 TEST(Memory, OfASweepDoesNotGrowWithItsRows) {
-  if (kIsSanitized) GTEST_SKIP();
+  if (kIsSanitized) GTEST_SKIP() << "the sanitizer keeps what was freed";
   const TemporaryFolder folder;
   const auto sweep_of = [&](int runs) {
     return peak_of({"sweep", "rr_free", "--over", "start.q.1=0:3:100", "--over", "start.q.2=0:3:" + std::to_string(runs / 100), "--set", "duration=0.01",

@@ -189,9 +189,7 @@ TEST_F(SuiteTrouble, MasksThatLeaveNothingAreRefused) {
 
 // 30 pictures of 8 MB each, which would not fit into what the program may have beside its libraries.
 TEST_F(SuiteTrouble, AcceptingManyPicturesTakesTheMemoryOfAFew) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer keeps what is given back";
-#endif
+  if (kIsSanitized) GTEST_SKIP() << "the sanitizer keeps what is given back";
   std::string poses;
   for (int i = 0; i < 30; ++i)
     poses += "  p" + std::to_string(i) + ": [0, " + std::to_string(0.1 * i) + "]\n";

@@ -28,13 +28,16 @@ struct RunOptions {
   double timeout_s = 120;
 };
 
-// For LD_PRELOAD: the library, behind the sanitizer's where the program has that, which keeps its own memory.
-inline std::string preloaded(const std::string& library) {
+// Programs and tests have the address sanitizer, which keeps memory of its own, and what was freed.
 #ifdef __SANITIZE_ADDRESS__
-  return "libasan.so.8 " + library;
+inline constexpr bool kIsSanitized = true;
 #else
-  return library;
+inline constexpr bool kIsSanitized = false;
 #endif
+
+// For LD_PRELOAD: the library, behind the sanitizer's where the program has that.
+inline std::string preloaded(const std::string& library) {
+  return kIsSanitized ? "libasan.so.8 " + library : library;
 }
 
 // The path of the built program, whether it has been built or not.
