@@ -16,10 +16,6 @@ constexpr double kSameInstant = 1e-9;  // s
 constexpr double kExactLine = 0.0025;  // units of H: a secondary one
 constexpr char kName[] = "exact";
 
-const Trajectory& curve_run_of(const Trajectory& run) {
-  return run.between ? *run.between : run;
-}
-
 // Where a curve is at t, between its points on a straight line; no number where it is not known.
 double value_at(std::span<const double> times, std::span<const double> values, double t) {
   const auto next = std::size_t(std::lower_bound(times.begin(), times.end(), t - kSameInstant) - times.begin());

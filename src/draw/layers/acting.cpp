@@ -114,10 +114,9 @@ class VectorLayer : public Layer {
     const Asides& asides = asides_of(panel, shot.k);
     const Peaks& peaks = peaks_of(panel, shot.k);
     Names names;
-    std::vector<WorldVector> vectors = vectors_at_(panel.motion(), shot.ws, shot.k);
-    for (WorldVector& vector : vectors) vector.size = arcs;
-    for (WorldVector& vector : vectors) {
+    for (WorldVector& vector : vectors_at_(panel.motion(), shot.ws, shot.k)) {
       const VectorName name = names.next(vector);
+      vector.size = arcs;
       if (const auto one = asides.find(name); one != asides.end()) vector.aside = one->second[std::size_t(shot.k)];
       if (const auto one = peaks.find(name); one != peaks.end()) vector.peak = one->second[std::size_t(shot.k)];
       if (shot.is_still && vector.peak) vector.peak = Peak{number_of(vector), true, std::abs(number_of(vector)) > pen_.cut_beyond(vector.kind)};

@@ -58,27 +58,30 @@ Rect label_box(const TextLine& label, Point near, Point direction) {
   return place_beyond(label, near, kVectorLabelGap, direction);
 }
 
+struct ArrowPlaces {
+  std::vector<Rect> boxes;
+  std::vector<bool> beyond_tip;  // of each, whether it lies aslant there
+};
+
 // Before the tip of an arrow, or beside its head and shaft, `half` off their middle.
-std::vector<Rect> places_along(const TextLine& label, Point tail, Point v, double half) {
+ArrowPlaces places_along(const TextLine& label, Point tail, Point v, double half) {
   const Point ahead = unit(v), side = normal_to(ahead), tip = tail + v;
   const Point aslant = std::sqrt(0.5) * ahead, across = std::sqrt(0.5) * side;
-  std::vector<Rect> places{label_box(label, tip, ahead), label_box(label, tip, aslant + across),
-                           label_box(label, tip, aslant - across)};
+  ArrowPlaces places;
+  const auto add = [&](const Rect& box, bool beyond_tip) {
+    places.boxes.push_back(box);
+    places.beyond_tip.push_back(beyond_tip);
+  };
+  add(label_box(label, tip, ahead), false);
+  for (const double way : {1.0, -1.0}) add(label_box(label, tip, aslant + way * across), true);
   for (const double share : {1.0, 0.6, 0.25})
     for (const double way : {1.0, -1.0})
-      places.push_back(label_box(label, tail + share * v + (way * half) * side, way * side));
+      add(label_box(label, tail + share * v + (way * half) * side, way * side), false);
   for (const double way : {1.0, -1.0}) {
-    places.push_back(place_beyond(label, tip, kFarLabelGap, aslant + way * across));
-    places.push_back(place_beyond(label, tail + 0.6 * v, half + kFarLabelGap, way * side));
+    add(place_beyond(label, tip, kFarLabelGap, aslant + way * across), true);
+    add(place_beyond(label, tail + 0.6 * v, half + kFarLabelGap, way * side), false);
   }
   return places;
-}
-
-// Of these the places that lie aslant beyond the tip.
-std::vector<bool> beyond_tip() {
-  std::vector<bool> closed(13, false);
-  for (const std::size_t i : {1, 2, 9, 11}) closed[i] = true;
-  return closed;
 }
 
 // Whether a place in this direction from the middle of an arc of half axes u and w is at the arc, or at least not across its joint,
@@ -371,10 +374,11 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const bool stays = vector.kind == VectorKind::push || vector.kind == VectorKind::weight || vector.peak;
   if (vector.label.empty() || (is_small && !stays)) return;
   const TextLine& text = label(vector, marks, vector.peak ? vector.peak->is_told : is_small);
-  MarkWord word{word_name(vector), text, places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2)};
+  ArrowPlaces places = places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2);
+  MarkWord word{word_name(vector), text, std::move(places.boxes)};
   word.anchor = tail + arrow.v;
   // Of one that stands beside its link a word beyond its tip is at what acts on the next joint, and would be taken for its name.
-  if (vector.aside != 0) word.closed = beyond_tip();
+  if (vector.aside != 0) word.closed = std::move(places.beyond_tip);
   // Where the arrow grows and turns quicker than an eye follows, its number rides along with its place.
   if (vector.peak) {
     word.anchor = tail;

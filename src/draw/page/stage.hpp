@@ -51,6 +51,11 @@ struct Variant {
 // Variant i of `count`; in the layout `ghost` with a letter where there are several outlines.
 Variant variant_of(int i, int count, bool ghost, const Theme& theme);
 
+// What curves of a run show: its samples, and what lies between them where that was kept.
+inline const Trajectory& curve_run_of(const Trajectory& run) {
+  return run.between ? *run.between : run;
+}
+
 // One run's chain at each of its frames. Not shared between threads: poses use one workspace.
 class StagedRun {
  public:
@@ -73,9 +78,8 @@ class StagedRun {
   bool is_outlined() const { return variant_ && variant_->outlined; }
 
   int samples() const { return samples_; }
-  // What curves of the run show: its samples, and what lies between them where that was kept; as many as there are until the end of the last
-  // of its frames.
-  const Trajectory& curve_run() const { return run_.trajectory.between ? *run_.trajectory.between : run_.trajectory; }
+  // As many samples of it as there are until the end of the last of its frames.
+  const Trajectory& curve_run() const { return curve_run_of(run_.trajectory); }
   int curve_samples() const;
   int counted() const { return counts_ ? samples_ : 1; }  // that the camera must hold
   bool counts() const { return counts_; }

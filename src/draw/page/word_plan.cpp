@@ -391,15 +391,21 @@ WordPlan::Decisions WordPlan::decide(bool is_whole) const {
   return placed;
 }
 
+// Of those that are not settled the ones before `end`.
+void WordPlan::add_frames(const Decisions& placed, int end, PlannedWords& planned) const {
+  std::vector<ChosenPlace> words;
+  for (int frame = settled_; frame < end; ++frame) {
+    words.clear();
+    for (const Placed& one : placed[std::size_t(frame - first_)]) words.push_back(one.chosen());
+    planned.add_frame(words);
+  }
+}
+
 // Frames before `end` are decided for good. What comes soon behind is, too, so that a word which fades there has begun to.
 void WordPlan::settle(int end) {
   const Decisions placed = decide(false);
-  std::vector<ChosenPlace> words;
-  for (; settled_ < end; ++settled_) {
-    words.clear();
-    for (const Placed& one : placed[std::size_t(settled_ - first_)]) words.push_back(one.chosen());
-    planned_.add_frame(words);
-  }
+  add_frames(placed, end, planned_);
+  settled_ = end;
   const int sure = end + frames_in(kSure), kept = std::max(first_, end - frames_in(kBehind));
   for (Track& track : tracks_) {
     for (Moment& now : track.moments)
@@ -412,13 +418,7 @@ void WordPlan::settle(int end) {
 
 PlannedWords WordPlan::planned() const {
   PlannedWords all = planned_;
-  const Decisions placed = decide(true);
-  std::vector<ChosenPlace> words;
-  for (int frame = settled_; frame < frames(); ++frame) {
-    words.clear();
-    for (const Placed& one : placed[std::size_t(frame - first_)]) words.push_back(one.chosen());
-    all.add_frame(words);
-  }
+  add_frames(decide(true), frames(), all);
   return all;
 }
 

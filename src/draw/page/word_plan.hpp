@@ -94,6 +94,7 @@ class WordPlan {
   int frames() const { return first_ + int(counts_.size()); }
   int frames_in(double seconds) const;
   Decisions decide(bool is_whole) const;
+  void add_frames(const Decisions& placed, int end, PlannedWords& planned) const;
   void settle(int end);
 
   Rect area_;
