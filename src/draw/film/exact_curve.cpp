@@ -25,35 +25,23 @@ double value_at(std::span<const double> times, std::span<const double> values, d
   return (1 - s) * values[next - 1] + s * values[next];
 }
 
-struct Range {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  void hold(std::span<const double> values) {
-    for (const double one : values)
-      if (std::isfinite(one)) low = std::min(low, one), high = std::max(high, one);
-  }
-  double span() const { return low <= high ? high - low : 0; }
-};
-
 // How many of its points the other one confirms.
 std::size_t confirmed(std::span<const double> times, std::span<const double> values, std::span<const double> other_times, std::span<const double> others) {
-  Range range;
-  range.hold(values);
+  const double span = span_of(values);
   const std::size_t count = std::min(times.size(), values.size());
   for (std::size_t k = 0; k < count; ++k)
-    if (!(std::abs(values[k] - value_at(other_times, others, times[k])) <= kConfirmed * range.span()) && std::isfinite(values[k])) return k;
+    if (!(std::abs(values[k] - value_at(other_times, others, times[k])) <= kConfirmed * span) && std::isfinite(values[k])) return k;
   return count;
 }
 
 // Whether a run's curve lies on the exact one as far as that is known.
 bool lies_on(const StripCurve& curve, std::span<const double> times, std::span<const double> values) {
-  std::vector<double> own;
-  for (const Point& p : curve.points) own.push_back(p.y);
-  Range range;
-  range.hold(own);
-  range.hold(values);
+  std::vector<double> both(values.begin(), values.end());
+  for (const Point& p : curve.points) both.push_back(p.y);
+  const double span = span_of(both);
   return std::ranges::all_of(curve.points, [&](const Point& p) {
     const double exact = value_at(times, values, p.x);
-    return !std::isfinite(exact) || std::abs(p.y - exact) <= kSeenApart * range.span();
+    return !std::isfinite(exact) || std::abs(p.y - exact) <= kSeenApart * span;
   });
 }
 

@@ -89,13 +89,6 @@ std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& 
   return plot.curves.size() > 1 ? name + ", " + title : title;
 }
 
-double span_of(const std::vector<double>& y) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const double one : y)
-    if (std::isfinite(one)) low = std::min(low, one), high = std::max(high, one);
-  return low <= high ? high - low : 0;
-}
-
 // By two digits that are no less.
 std::string at_most(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
@@ -205,6 +198,13 @@ void draw_part(Picture& picture, const PlotFrame& frame, const StripCurve& curve
 }
 
 }  // namespace
+
+double span_of(std::span<const double> y) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const double one : y)
+    if (std::isfinite(one)) low = std::min(low, one), high = std::max(high, one);
+  return low <= high ? high - low : 0;
+}
 
 PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     : data_(std::move(data)), area_(area), style_(style) {

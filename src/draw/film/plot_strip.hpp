@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,9 @@ class PlotStrip {
   PlotStyle style_;
   PlotFrame frame_;
 };
+
+// From the lowest to the highest of those that are finite; 0 of none.
+double span_of(std::span<const double> y);
 
 // What one of the runs of a film shows in its plots.
 struct StripRun {
