@@ -51,7 +51,7 @@ int half_way(int a, int b) {
 void bound(const Image& middle, std::span<const Image> ends, Image& low, Image& high) {
   low = high = middle;
   if (ends.empty()) return;
-  std::vector<std::uint8_t> lowest = ends[0].bgra, highest = ends[0].bgra;  // of the ends
+  PixelBytes lowest = ends[0].bgra, highest = ends[0].bgra;  // of the ends
   for (const Image& end : ends.subspan(1))
     for (std::size_t i = 0; i < lowest.size(); ++i) {
       lowest[i] = std::min(lowest[i], end.bgra[i]);

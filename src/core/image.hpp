@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "core/large_memory.hpp"
 
 namespace chainreel {
 
@@ -23,7 +24,7 @@ inline void divide_by_alpha(std::uint8_t* bgra) {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> bgra;  // 4 * width * height bytes
+  PixelBytes bgra;  // 4 * width * height bytes
 
   Image() = default;
   Image(int w, int h) : width(w), height(h), bgra(std::size_t(4) * std::size_t(w) * std::size_t(h)) {}

@@ -2,7 +2,6 @@
 
 #include <malloc.h>
 #include <sched.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -154,15 +153,6 @@ void give_large_memory_back() {
 
 void give_freed_memory_back() {
   malloc_trim(0);
-}
-
-void prefer_large_pages(void* begin, std::size_t bytes) {
-  constexpr std::uintptr_t kPage = 4096, kLarge = 1 << 21;
-  if (bytes < 2 * kLarge) return;  // may hold no large page
-  const auto first = (reinterpret_cast<std::uintptr_t>(begin) + kPage - 1) / kPage * kPage;
-  const auto end = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / kPage * kPage;
-  // A refusal leaves small pages, which serve as well.
-  if (end > first) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
 }
 
 }  // namespace chainreel

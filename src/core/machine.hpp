@@ -33,10 +33,6 @@ void give_large_memory_back();
 // What was freed and lies between what is held.
 void give_freed_memory_back();
 
-// Has the system back this memory, which has not been written yet, by large pages where there are some: to hand out
-// a large picture in small ones takes as long as to decode it. Changes nothing but time.
-void prefer_large_pages(void* begin, std::size_t bytes);
-
 // "x86_64": all processors of one architecture draw the same pixels.
 std::string processor_architecture();
 

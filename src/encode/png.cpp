@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/machine.hpp"
+#include "core/large_memory.hpp"
 #include "encode/usual_png.hpp"
 
 namespace chainreel {
@@ -84,15 +84,14 @@ void append_text_chunks(std::string& png, const std::map<std::string, std::strin
 
 // Rows as PNG has them: no filter, then red, green, blue and, unless all is opaque, opacity.
 struct Rows {
-  std::unique_ptr<std::uint8_t[]> bytes;
+  RawBytes bytes;
   std::size_t size;
 };
 
 Rows rows_of(const Image& image, bool opaque) {
   const std::size_t width = std::size_t(image.width), height = std::size_t(image.height), channels = opaque ? 3 : 4;
   const std::size_t size = height * (1 + channels * width);
-  Rows rows{std::unique_ptr<std::uint8_t[]>(new std::uint8_t[size + 1]), size};  // all of it is written below, and one byte behind it
-  prefer_large_pages(rows.bytes.get(), size);
+  Rows rows{RawBytes(size + 1), size};  // one byte behind it is written, too
   std::uint8_t* to = rows.bytes.get();
   const std::uint8_t* from = image.bgra.data();
   for (std::size_t y = 0; y < height; ++y) {

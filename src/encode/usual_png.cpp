@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "core/machine.hpp"
+#include "core/large_memory.hpp"
 
 namespace chainreel {
 namespace {
@@ -136,19 +136,13 @@ std::optional<Image> decode_usual_png(std::string_view bytes) {
   if (!chunks) return std::nullopt;
   const std::size_t width = chunks->width, height = chunks->height, count = chunks->channels * width;
   const std::size_t stride = 1 + count, size = height * stride;  // a row is its filter and its bytes
-  const auto rows = std::make_unique_for_overwrite<std::uint8_t[]>(size + 1);  // one for to_bgra
-  prefer_large_pages(rows.get(), size);
+  const RawBytes rows(size + 1);  // one for to_bgra
   const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> zlib(libdeflate_alloc_decompressor());
   if (!zlib || libdeflate_zlib_decompress(zlib.get(), chunks->pixels.data(), chunks->pixels.size(),
                                           rows.get(), size, nullptr) != LIBDEFLATE_SUCCESS)
     return std::nullopt;
 
-  Image image;
-  image.width = int(width);
-  image.height = int(height);
-  image.bgra.reserve(4 * width * height);
-  prefer_large_pages(image.bgra.data(), image.bgra.capacity());
-  image.bgra.resize(4 * width * height);
+  Image image{int(width), int(height)};
   const std::string top(count, '\0');
   const std::uint8_t* above = reinterpret_cast<const std::uint8_t*>(top.data());
   for (std::size_t y = 0; y < height; ++y) {

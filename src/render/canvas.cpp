@@ -271,6 +271,11 @@ void Canvas::draw(const Picture& picture, Image& image) {
   image = draw(picture).image;
 }
 
+Image Canvas::drawn(const Picture& picture) && {
+  draw(picture);
+  return std::move(state_->frame.image);
+}
+
 void give_renderer_back() {
   constexpr std::array<std::string_view, 3> kLibraries = {"libLLVM", "libOSMesa", "libgallium"};
   give_code_back(kLibraries);

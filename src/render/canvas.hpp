@@ -84,6 +84,8 @@ class Canvas {
   const CanvasFrame& draw(const Picture& picture);
   // The same into an image of one's own.
   void draw(const Picture& picture, Image& image);
+  // The same of a canvas that is used no more: its own image, not a copy.
+  Image drawn(const Picture& picture) &&;
 
  private:
   struct State;

@@ -75,7 +75,7 @@ void WindowPainter::draw_layer(const PixelBox& box, const float* fill, std::uint
 }
 
 void WindowPainter::draw_trail(const Run& run, const Windows& windows) {
-  trail_.resize(std::size_t(width_) * std::size_t(height_));
+  if (trail_.empty()) trail_ = PixelBytes(std::size_t(width_) * std::size_t(height_));
   const auto row_of = [this](int y) { return trail_.data() + std::ptrdiff_t(y) * width_; };
   const int flat_floats = Windows::floats_of(Primitive::flat), floats = Windows::floats_of(Primitive::trail);
   const float* instance =

@@ -5,8 +5,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "core/large_memory.hpp"
 #include "render/fill_windows.hpp"
 #include "render/windows.hpp"
 
@@ -39,7 +39,7 @@ class WindowPainter {
 
   int width_, height_;
   const WindowFillers* fillers_;
-  std::vector<std::uint8_t> trail_;  // of the page: the path that is drawn; made when first used
+  PixelBytes trail_;  // of the page: the path that is drawn; made when first used
   std::array<float, 4> color_of_levels_{-1, -1, -1, -1};
   Levels levels_{};
 };

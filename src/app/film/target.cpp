@@ -115,10 +115,7 @@ std::vector<std::string> paths_of(const std::vector<Target>& targets) {
 }
 
 Image rasterise(const Picture& picture, int width, int height, const Fonts& fonts) {
-  Canvas canvas(width, height, fonts, PageUse::still);
-  Image image;
-  canvas.draw(picture, image);
-  return image;
+  return Canvas(width, height, fonts, PageUse::still).drawn(picture);
 }
 
 const OutputFormat& picture_format_of(const std::string& path) {

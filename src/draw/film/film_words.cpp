@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
+#include <utility>
 
 #include "draw/layers/body_obstacles.hpp"
 #include "dynamics/kinematics.hpp"
@@ -76,6 +78,40 @@ Obstacle obstacle_of(const Rect& box) {
   return {{box.x0 + radius, y}, {box.x1 - radius, y}, radius + kBetweenWords};
 }
 
+// Plans words on a thread of its own, some frames at a time, while the next ones are drawn.
+class Planner {
+ public:
+  explicit Planner(WordPlan& plan) : plan_(plan) {}
+
+  void add(std::vector<MarkWord> words, std::vector<Obstacle> obstacles) {
+    drawn_.push_back({std::move(words), std::move(obstacles)});
+    if (drawn_.size() == kFramesAtOnce) hand_over();
+  }
+  void finish() {
+    hand_over();
+    at_work_.get();
+  }
+
+ private:
+  static constexpr std::size_t kFramesAtOnce = 32;  // far longer than a thread takes to begin
+  struct Drawn {
+    std::vector<MarkWord> words;
+    std::vector<Obstacle> obstacles;
+  };
+
+  void hand_over() {
+    if (at_work_.valid()) at_work_.get();
+    // Where there is no thread to be had the frames are planned when the next ones are handed over.
+    at_work_ = std::async(std::launch::async | std::launch::deferred, [this, frames = std::exchange(drawn_, {})] {
+      for (const Drawn& frame : frames) plan_.add(frame.words, frame.obstacles);
+    });
+  }
+
+  WordPlan& plan_;
+  std::vector<Drawn> drawn_;
+  std::future<void> at_work_;
+};
+
 constexpr double kAirInCell = 0.008;  // units of H: from its frame
 
 // Where words may stand: a cell of a comparison has a frame, which is to strike none.
@@ -93,11 +129,13 @@ FilmWords::FilmWords(const Stage& stage, const Layers& layers, const FilmSheet& 
     const Rect area = area_of_words(stage, panels[i]);
     WordPlan plan(area, stage.page.video.fps.value());
     const std::vector<Obstacle> always = gatherer.once(i, view.shared_page(stage, sheet));
+    Planner planner(plan);
     for (int k = 0; k <= panels[i].last() && !panels[i].motion().is_outlined(); ++k) {
       std::vector<Obstacle> obstacles = always;
-      const MarkLabels labels = gatherer.gather(i, k, stage, obstacles);
-      plan.add(labels.words(), obstacles);
+      MarkLabels labels = gatherer.gather(i, k, stage, obstacles);
+      planner.add(std::move(labels).words(), std::move(obstacles));
     }
+    planner.finish();
     panels_.push_back({area, plan.planned()});
   }
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "picture/picture.hpp"
@@ -86,7 +87,8 @@ class MarkLabels {
   void add(MarkWord word);
   // `box`: where the ink of the line is wished; places around it will do.
   void add(const std::string& name, TextLine line, const Rect& box, std::optional<Point> anchor = {});
-  const std::vector<MarkWord>& words() const { return words_; }
+  const std::vector<MarkWord>& words() const& { return words_; }
+  std::vector<MarkWord> words() && { return std::move(words_); }
 
   // With a halo of the background's colour. Without a plan inside `area`: labels that are wished outside of it are left
   // out, and those that would have to go farther than `farthest` heights of their own.

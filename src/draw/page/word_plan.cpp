@@ -210,6 +210,10 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
     Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}, words[i].anchor, {}, {}};
     if (!now.insists) now.tie = words[i].tie;
     find_near(words[i], area_, all, near);
+    const std::size_t places = std::min(words[i].places.size(), most);
+    now.places.reserve(places);
+    now.grounds.reserve(places);
+    if (words[i].leader || now.tie) now.leaders.reserve(places);
     for (const Rect& wish : words[i].places) {
       if (now.places.size() == most) break;
       const Rect box = moved_into(area_, wish);
