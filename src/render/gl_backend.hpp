@@ -15,9 +15,9 @@ std::span<const Name> names_of(GlBackend);
 void choose_gl_backend(GlBackend backend);
 
 // What a page is drawn for: it lies under a film, or is a picture by itself. For one of these OpenGL's library would take longer to
-// open than all else takes.
-enum class PageUse { film, still };
-// Whether pages of this use are drawn by a context, else filled in memory: pictures only where --gl names a library.
+// open than all else takes, and beside a film of many thousand frames more memory than is left.
+enum class PageUse { film, long_film, still };
+// Whether pages of this use are drawn by a context, else filled in memory: those of ordinary films; others where --gl names a library.
 bool opengl_draws(PageUse use);
 
 }  // namespace chainreel

@@ -152,6 +152,7 @@ PlotCurves columns(const std::vector<double>& table, const std::vector<std::stri
   PlotCurves plot;
   for (std::size_t i = 0; i < names.size(); ++i) {
     PlotCurve curve{names[i], {}};
+    curve.y.reserve(std::size_t(samples));
     for (int k = 0; k < samples; ++k) curve.y.push_back(table[std::size_t(k) * names.size() + i]);
     plot.curves.push_back(std::move(curve));
   }

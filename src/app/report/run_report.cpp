@@ -94,6 +94,7 @@ Json mechanism_record(const PreparedScene& prepared) {
 
 RunReport run_report(const PreparedScene& prepared, const Trajectory& trajectory) {
   RunReport report{prepared, trajectory, audit_of(prepared.simulation, trajectory), {}, {}};
+  report.audit.error = {};  // at each sample, which no report tells
   report.warnings = warnings_of(prepared, trajectory, report.audit);
   if (const int panel = prepared.scene.panel; panel > 0)
     for (Doubt& doubt : report.warnings) doubt.remedy = in_panel(doubt.remedy, panel);

@@ -30,6 +30,7 @@ namespace {
 // Of what all share: libraries that are still to be loaded; of a thread with its canvas and one encoder, measured at
 // 1920x1080, and the address space that it takes for its heap.
 constexpr double kBytesOfProcess = 300e6, kBytesOfThread = 100e6, kBytesOfPixel = 90;
+constexpr double kLongFilm = 20'000;  // frames, of all panels: runs and plots that take much memory, too
 
 // A chunk depends on the program, too.
 std::string chunk_key(const VideoSettings& s, const std::string& film_key) {
@@ -380,12 +381,13 @@ int affordable_jobs(int wanted, const Scene& scene, const std::vector<Output>& o
   return std::min(wanted > 0 ? wanted : usable_cores(), affordable);
 }
 
-std::optional<ComingRenderer> renderer_ahead(const std::vector<Output>& outputs, const Scene& scene) {
+std::optional<ComingRenderer> renderer_ahead(const std::vector<Output>& outputs, const Scene& scene, std::size_t panels) {
   const auto is_film = [](const Output& output) { return output.shows(Shows::motion) && !output.folder; };
   const auto is_picture = [](const Output& output) { return !output.shows(Shows::table); };
   if (std::none_of(outputs.begin(), outputs.end(), is_picture)) return {};
   const bool has_films = std::any_of(outputs.begin(), outputs.end(), is_film);
-  return ComingRenderer(scene.video.width, scene.video.height, PageUse::film, [has_films] {
+  const bool is_long = scene.duration * scene.video.fps.value() * double(panels) > kLongFilm;
+  return ComingRenderer(scene.video.width, scene.video.height, is_long ? PageUse::long_film : PageUse::film, [has_films] {
     if (has_films) libav();
   });
 }

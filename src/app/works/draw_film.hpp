@@ -64,7 +64,7 @@ FilmCuts cuts_of(const std::vector<Output>& outputs, int frames, FrameRate fps);
 
 // The libraries that films need and the renderer, made ready beside what is worked out before: from cold they take a tenth of a
 // second. None where no picture is asked for.
-std::optional<ComingRenderer> renderer_ahead(const std::vector<Output>& outputs, const Scene& scene);
+std::optional<ComingRenderer> renderer_ahead(const std::vector<Output>& outputs, const Scene& scene, std::size_t panels);
 
 // How many threads are worth having where `wanted`, or all processors where it is 0, may be had: as many as there is memory
 // for; fewer than wanted is told on standard error.

@@ -409,7 +409,7 @@ RenderResult render_film(const PreparedFilm& film, const RenderJob& job, const R
   std::vector<Sidecar> sidecars;
   if (!is_part) sidecars = open_sidecars(job, film);
 
-  std::optional<ComingRenderer> renderer = renderer_ahead(outputs, scene);
+  std::optional<ComingRenderer> renderer = renderer_ahead(outputs, scene, film.panels.size());
   StageClock total, clock;
   std::optional<Runs> own;
   const Runs& runs = done != nullptr ? *done : own.emplace(film);

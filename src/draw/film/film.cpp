@@ -34,14 +34,15 @@ std::vector<Panel> panels_of(const Stage& stage, const FilmView& view) {
   for (std::size_t i = 0; i < stage.motions.size(); ++i)
     panels.emplace_back(stage.motions[i], PanelView{view.camera_of(i), view.cells[i].scene, int(i), view.marks}, stage.motions[i].theme_of(stage.theme));
   if (panels.size() == 1) return panels;
-  const std::vector<Panel> alone = panels;
+  std::vector<std::vector<Rail>> alone;
+  for (const Panel& panel : panels) alone.push_back(panel.rails());
   const auto is_one_machine = [&](std::size_t i, std::size_t other) {
     const Chain &a = panels[i].chain(), &b = panels[other].chain();
     return a.name == b.name && a.coordinate_names == b.coordinate_names;
   };
   for (std::size_t i = 0; i < stage.full_panels(); ++i)
     for (std::size_t other = 0; other < panels.size(); ++other)
-      if (other != i && (other >= stage.full_panels() || is_one_machine(i, other))) panels[i].let_rails_reach_those_of(alone[other]);
+      if (other != i && (other >= stage.full_panels() || is_one_machine(i, other))) panels[i].let_rails_reach(alone[other]);
   return panels;
 }
 

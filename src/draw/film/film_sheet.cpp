@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "draw/film/exact_curve.hpp"
 #include "draw/page/wrapped_words.hpp"
+#include "picture/thin_points.hpp"
 #include "sim/audit.hpp"
 #include "sim/doubts.hpp"
 
@@ -60,9 +61,33 @@ double energy_off(const StagedRun& motion) {
   return is_off ? std::max(audit.largest_error, run.energy_at_steps->largest_error) : 0;
 }
 
+constexpr std::size_t kVeryManySamples = 16384;
+constexpr double kFinerColumns = 2;  // than those of a curve as wide as the page
+
+// Of so many samples those that a plot of the page can show, as long as only one run's curves are there in full.
+void keep_what_shows(const Scene& page, std::vector<double>& t, PlotCurves& plot) {
+  const auto is_whole = [&](const PlotCurve& curve) { return curve.y.size() == t.size() && std::ranges::all_of(curve.y, [](double y) { return std::isfinite(y); }); };
+  if (t.size() <= kVeryManySamples || !std::ranges::all_of(plot.curves, is_whole)) return;
+  const double pixel = 1.0 / page.video.height, scale = kFinerColumns * page.video.width * pixel / t.back();
+  std::vector<bool> shows(t.size());
+  std::vector<Point> points(t.size());
+  for (const PlotCurve& curve : plot.curves) {
+    for (std::size_t k = 0; k < t.size(); ++k) points[k] = {scale * t[k], curve.y[k]};
+    for (const std::size_t k : column_points(points, pixel)) shows[k] = true;
+  }
+  const auto kept_of = [&](const std::vector<double>& all) {
+    std::vector<double> kept;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (shows[k]) kept.push_back(all[k]);
+    return kept;
+  };
+  for (PlotCurve& curve : plot.curves) curve.y = kept_of(curve.y);
+  t = kept_of(t);
+}
+
 // What the plots of the page show of a run; its simulation must be there. The work, and so what is wrong with the energy, is known
 // at its samples alone.
-StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story) {
+StripRun strip_run(const Scene& page, const StagedRun& motion, const std::vector<PlotCurves>& story) {
   const Trajectory& run = motion.curve_run();
   StripRun strip{motion.title(), motion.is_wild(), {}, story};
   strip.accurate_until = motion.accurate_until();
@@ -80,6 +105,7 @@ StripRun strip_run(const StagedRun& motion, const std::vector<PlotCurves>& story
   for (std::size_t i = 0; i < strip.plots.size(); ++i)
     if (strip.plots[i].quantity == PlotQuantity::energy_error && run.t.size() > motion.trajectory().t.size())
       leave_out_unknown(strip.times[i], strip.plots[i].curves[0].y);
+  for (std::size_t i = 0; i < strip.plots.size(); ++i) keep_what_shows(page, strip.times[i], strip.plots[i]);
   return strip;
 }
 
@@ -202,7 +228,7 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, const Plot
   const Scene& page = stage.page;
   std::vector<StripRun> runs;
   for (std::size_t i = 0; i < stage.motions.size(); ++i)
-    runs.push_back(strip_run(stage.motions[i], story.empty() ? std::vector<PlotCurves>() : story[i]));
+    runs.push_back(strip_run(page, stage.motions[i], story.empty() ? std::vector<PlotCurves>() : story[i]));
   const int count = int(story.empty() ? page.plot.size() : story.front().size());
   const bool right = stage.is_ghost()        ? !story.empty()
                      : stage.is_comparison() ? room.beside_panels

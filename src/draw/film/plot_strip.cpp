@@ -332,6 +332,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
       curve.shown_low = shown.curves[c].shown_low, curve.shown_high = shown.curves[c].shown_high;
       const std::vector<double>& y = shown.curves[c].y;
       const std::vector<double>& t = run.times[i];
+      curve.points.reserve(std::min(y.size(), t.size()));
       for (std::size_t k = 0; k < std::min(y.size(), t.size()); ++k) curve.points.push_back({t[k], y[k]});
       if (data.has_poles && !curve.label.empty() && std::ranges::all_of(y, [](double one) { return std::isinf(one); })) curve.label += " = \u221E";
       if (const double alone = shown.curves[c].alone; alone > 0) curve.label += (curve.label.empty() ? "once " : ", once ") + format_power(alone) + unit_in(data.title);

@@ -288,7 +288,8 @@ class TorqueRun {
         tau_(torques_along(*motion.simulation(), motion.trajectory())),
         shown_(nv_),
         rings_(nv_),
-        named_(nv_, std::vector<bool>(motion.trajectory().t.size())) {
+        extremes_(nv_),
+        named_(nv_) {
     const std::vector<double>& t = motion.trajectory().t;
     for (std::size_t at = 0; at < tau_.size(); ++at)
       if (std::isfinite(tau_[at]) && tau_[at] != 0) shown_[at % nv_] = true;
@@ -299,13 +300,19 @@ class TorqueRun {
     std::vector<Magnitude> magnitudes;
     for (std::size_t at = 0; at < tau_.size(); ++at) magnitudes.push_back({std::abs(tau_[at]), lasts(t, at / nv_)});
     const double full = full_magnitude(std::move(magnitudes));
+    if (!shows_any()) {
+      tau_ = {};  // long films of motions without torques need no room for them
+      return;
+    }
     const std::vector<double> curve = torques_along(*motion.simulation(), motion.curve_run());
     const int keeps_name = int(std::lround(kKeepsName * stage.page.video.fps.value()));
     for (std::size_t i = 0; i < nv_; ++i) {
+      if (!shown_[i]) continue;
+      named_[i].resize(t.size());
       std::vector<bool> rests(t.size());
       for (std::size_t k = 0; k < t.size(); ++k) rests[k] = !(std::abs(tau_[k * nv_ + i]) >= kRestBelow * full);
       rings_[i] = rings_along(t, rests);
-      extremes_.push_back(extremes_near(of_freedom(tau_, i), t, of_freedom(curve, i), motion.curve_run().t));
+      extremes_[i] = extremes_near(of_freedom(tau_, i), t, of_freedom(curve, i), motion.curve_run().t);
       for (int k = 0, named = -1; k < int(t.size()); ++k) {
         if (!(std::abs(tau_[std::size_t(k) * nv_ + i]) > full * kLeastNamed * kWidestTurn / kTurnOfFull)) continue;
         for (int between = named + 1; named >= 0 && k - named <= keeps_name && between < k; ++between) named_[i][std::size_t(between)] = true;
@@ -315,6 +322,7 @@ class TorqueRun {
   }
 
   const double* at(int k) const { return tau_.data() + std::size_t(k) * nv_; }
+  bool shows_any() const { return std::ranges::any_of(shown_, std::identity()); }
   // Whether anything ever acts at the freedom, and no spring stands for it.
   bool shows(int freedom) const { return shown_[std::size_t(freedom)]; }
   double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
@@ -327,6 +335,7 @@ class TorqueRun {
  private:
   std::vector<double> of_freedom(const std::vector<double>& tau, std::size_t i) const {
     std::vector<double> own;
+    own.reserve(tau.size() / nv_);
     for (std::size_t at = i; at < tau.size(); at += nv_) own.push_back(tau[at]);
     return own;
   }
@@ -334,7 +343,7 @@ class TorqueRun {
   std::size_t nv_;
   std::vector<double> tau_;                 // nv a sample
   std::vector<bool> shown_;                 // a freedom
-  std::vector<std::vector<double>> rings_;  // a freedom, a sample
+  std::vector<std::vector<double>> rings_;  // a freedom that is shown, a sample
   std::vector<std::vector<double>> extremes_;  // ... the same
   std::vector<std::vector<bool>> named_;  // ... the same
   bool labelled_ = true;
@@ -353,6 +362,7 @@ double reach_of(const Chain& chain, const Workspace& ws, int body) {
 
 std::vector<WorldVector> torques_at(const Chain& chain, const Workspace& ws, const TorqueRun& run, int k) {
   std::vector<WorldVector> vectors;
+  if (!run.shows_any()) return vectors;
   const double* tau = run.at(k);
   for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
     const Joint& joint = chain.bodies[b].joint;

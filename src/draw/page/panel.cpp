@@ -68,9 +68,9 @@ Panel::Panel(const StagedRun& motion, const PanelView& view, const Theme& theme)
   follow_tip();
 }
 
-void Panel::let_rails_reach_those_of(const Panel& other) {
+void Panel::let_rails_reach(const std::vector<Rail>& others) {
   for (Rail& rail : skeleton_.rails)
-    for (const Rail& its : other.skeleton_.rails) {
+    for (const Rail& its : others) {
       if (its.body != rail.body || !its.used || !rail.used) continue;
       rail.lower = std::min(rail.lower, its.lower);
       rail.upper = std::max(rail.upper, its.upper);

@@ -54,8 +54,9 @@ inline constexpr char kBeforeAway[] = ", up to ";  // how far off a run comes to
 class Panel {
  public:
   Panel(const StagedRun& motion, const PanelView& view, const Theme& theme);
-  // Rails become as long as those of the other panel, whose motion they show, too, or beside which they stand.
-  void let_rails_reach_those_of(const Panel& other);
+  // Rails become as long as those of another panel, whose motion they show, too, or beside which they stand.
+  void let_rails_reach(const std::vector<Rail>& others);
+  const std::vector<Rail>& rails() const { return skeleton_.rails; }
 
   const StagedRun& motion() const { return *motion_; }
   const Chain& chain() const { return motion_->chain(); }

@@ -41,18 +41,22 @@ inline constexpr double kWordAir = 0.004;
 class PlannedWords {
  public:
   void add_frame(std::span<const ChosenPlace> words) {
+    if (words_.empty() && !words.empty()) ends_.assign(frames_, 0);
+    ++frames_;
     words_.insert(words_.end(), words.begin(), words.end());
-    ends_.push_back(words_.size());
+    if (!words_.empty()) ends_.push_back(std::uint32_t(words_.size()));
   }
   std::span<const ChosenPlace> at(int frame) const {
+    if (ends_.empty()) return {};
     const std::size_t begin = frame > 0 ? ends_[std::size_t(frame) - 1] : 0;
     return std::span(words_).subspan(begin, ends_[std::size_t(frame)] - begin);
   }
-  bool empty() const { return ends_.empty(); }
+  bool empty() const { return frames_ == 0; }
 
  private:
+  std::size_t frames_ = 0;
   std::vector<ChosenPlace> words_;
-  std::vector<std::size_t> ends_;
+  std::vector<std::uint32_t> ends_;  // of the words of each frame; none where no frame has any
 };
 
 class WordPlan {
