@@ -12,6 +12,8 @@ namespace {
 
 constexpr const char* kFirstToGo[] = {"equation", "torque_label", "legend", "mass_matrix", "scale_bar"};
 constexpr double kWidestPlots = 0.62;  // of the page's width
+constexpr double kWidePlots = 0.42;    // ... beside a motion that is no slim one, which is what one looks at
+constexpr double kSlimMotion = 0.4;    // of its height
 constexpr double kKeptBeside = 0.12;   // units of H, of the scene for words and the arrow of gravity
 constexpr double kPlotsOfSpare = 0.6;  // ... of the height that a motion leaves, for plots below it
 constexpr double kHighestPlots = 0.34;
@@ -112,8 +114,9 @@ Composition with_wide_plots(const Scene& page, const Shown& film, const Story& s
   const Rect& scene = usual.sheet.sheet.scene;
   PlotRoom room;
   if (usual.sheet.has_plots_beside) {
-    const double spare = scene.width() - usual.view.size_used().x - kKeptBeside;
-    room.beside = std::min(kPlotsBeside + spare / usual.sheet.sheet.aspect, kWidestPlots);
+    const Point used = usual.view.size_used();
+    const double spare = scene.width() - used.x - kKeptBeside;
+    room.beside = std::min(kPlotsBeside + spare / usual.sheet.sheet.aspect, used.x < kSlimMotion * used.y ? kWidestPlots : kWidePlots);
     return room.beside > kPlotsBeside + kWorthwhile ? with_readable_words(page, film, story, room) : std::move(usual);
   }
   if (!usual.sheet.has_plots_stacked || usual.stage->has_cells()) return usual;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <future>
 #include <utility>
 
@@ -170,6 +171,10 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
   std::vector<Obstacle> obstacles = gatherer.once(panel, view.shared_page(stage, sheet));
   std::vector<MarkWord> wishes = gatherer.gather(panel, frame, stage, obstacles, true).words();
   std::vector<StandingWord> words = standing_in(panels_[panel].area, panels_[panel].words.at(frame), wishes);
+  // A number that is told otherwise than in the film has other boxes at its places, which may lie on what the film's keep off.
+  const std::vector<StandingWord> in_film = standing(stage, layers, view, panels, panel, frame);
+  for (std::size_t i = 0; i < std::min(words.size(), in_film.size()); ++i)
+    if (std::abs(words[i].box.width() - in_film[i].box.width()) > kRoundOff && !wishes[i].leader && lies_on(words[i].box, obstacles)) words[i].opacity = 0;
   const auto is_left_out = [](const StandingWord& word) { return !(word.opacity > 0); };
   const bool has_left_out = std::any_of(words.begin(), words.end(), is_left_out);
   for (StandingWord& word : words) word.opacity = is_left_out(word) ? 0 : 1;

@@ -59,7 +59,7 @@ std::vector<PlotCurves> pressure_on_foot(const StagedRun& motion) {
   PlotCurves told{PlotQuantity::expression, "centre of pressure [m]", false, {}, found.front().formula};
   for (PlotCurves& one : found) told.curves.push_back({one.formula, std::move(one.curves.front().y), one.formula != "cop"});
   PlotCurve& pressure = told.curves.front();
-  pressure.name = "pressure";
+  pressure.name = "";  // the plot's title says it
   const double most = kBeyondFoot * (foot.toe - foot.heel);
   const auto is_beyond = [&](double place) { return place < foot.heel - most || place > foot.toe + most; };
   const auto is_there = [](double place) { return std::isfinite(place); };

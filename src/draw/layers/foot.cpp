@@ -1,7 +1,7 @@
 // A foot on the ground and what the ground answers: an arrow that ends at the centre of pressure, which is marked, as long as
 // the force. It stands below the ground, along the line on which the force acts, where no leg hides it. The force that presses never
-// leaves the foot. Where it would have to, no centre of pressure is marked, and the foot is held by a pull at its other end, which is a dashed arrow with words that
-// a real foot would tip. A plumb line from the centre of mass shows where that stands beside the foot.
+// leaves the foot. Where it would have to, no centre of pressure is marked, and the foot is held by a pull at its other end, which is a dashed arrow with words that it does so,
+// and that a real foot would tip. A plumb line from the centre of mass shows where that stands beside the foot.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,14 +19,15 @@
 namespace chainreel {
 namespace {
 
-constexpr double kWeightArrow = 0.15;  // units of H: as long is the force that bears the weight
-constexpr double kBesideOthers = 0.55;  // ... of that, where panels or plots share the page: the robot is what one looks at
+constexpr double kWeightArrow = 0.09;  // units of H: as long is the force that bears the weight, which the robot stands above
+constexpr double kBesideOthers = 0.8;  // ... of that, where panels or plots share the page: the robot is what one looks at
 constexpr double kMostRoom = 1.5;      // weights: the camera holds arrows of so much, longer ones are no longer and have a break
 constexpr double kBrokenOver = 0.1;    // weights beyond that, over which the break opens
 constexpr double kDepths[] = {0.05, 0.08, 0.12};  // units of H, below the ground: of words that the foot is held
 constexpr double kBesideArrow = 0.03;  // units of H
 constexpr double kShortestTie = 0.01;  // ... of a line from there to the words
 constexpr double kPressure = 0.0075;   // units of H: radius of the centre of pressure
+constexpr double kCrowdedBeyond = 1.3;  // text_scale: that of pages of less than 320 rows of pixels
 constexpr double kPlumbLine = 0.0025;  // units of H
 
 // A run's foot, and what the ground answers at its samples.
@@ -81,8 +82,8 @@ class FootLayer : public Layer {
   explicit FootLayer(const Stage& stage)
       : theme_(&stage.theme),
         page_(&stage.page),
-        held_(words(stage, "a real foot would tip here")),
-        short_(words(stage, "a real foot tips")),
+        held_(words(stage, "holds the foot: a real one would tip")),
+        short_(words(stage, "holds the foot")),
         turned_(words(stage, "a real foot has tipped")),
         names_center_(stage.shows("com") && stage.shows("legend")),
         arrow_(kWeightArrow * (stage.has_cells() || !stage.page.plot.empty() ? kBesideOthers : 1)) {
@@ -97,13 +98,15 @@ class FootLayer : public Layer {
   void write(SheetText& text) const override {
     constexpr double kLegend = 0.045;  // units of H, at most
     if (!weight_) return;
-    if (!names_center_) text.scales.push_back({ScaleEntry::Mark::center_of_mass, 0, theme_->ink, "centre of mass", kAfterVectors});
+    // On few pixels words take more than what they speak of: marks that are known, or named in the scene, have none below it.
+    const bool is_crowded = !(page_->video.least_text > 0) && page_->text_scale > kCrowdedBeyond;
+    if (!names_center_ && !is_crowded) text.scales.push_back({ScaleEntry::Mark::center_of_mass, 0, theme_->ink, "centre of mass", kAfterVectors});
     const double force = round_length(kLegend / arrow_ * *weight_);
     text.scales.push_back({ScaleEntry::Mark::arrow, arrow_ * force / *weight_, theme_->constraint,
                            "ground reaction " + format_shortest(force) + " N", kAfterScales});
     text.scales.push_back({ScaleEntry::Mark::disc, 2 * kPressure, theme_->constraint, "centre of pressure", kAfterScales + 1});
     const bool is_pulled = std::ranges::any_of(runs_, [](const auto& one) { return std::ranges::any_of(one.second.answers, [](const FootHold& hold) { return hold.pull > 0; }); });
-    if (is_pulled) text.scales.push_back({ScaleEntry::Mark::dashed_arrow, arrow_ * force / *weight_, theme_->constraint, "holds the foot", kAfterScales + 2});
+    if (is_pulled && !is_crowded) text.scales.push_back({ScaleEntry::Mark::dashed_arrow, arrow_ * force / *weight_, theme_->constraint, "holds the foot", kAfterScales + 2});
   }
 
   void measure(const Sight& sight, FitBox& box) const override {
@@ -112,7 +115,9 @@ class FootLayer : public Layer {
     const FootRun& run = known->second;
     const FootHold& hold = run.answer(sight.k);
     const auto hold_below = [&](double place, double weights) {
-      box.add({0, 0, arrow_ * std::min(kMostRoom, weights), 0}, sight.camera.flat(run.on_ground(place)));
+      Room below{0, 0, arrow_ * std::min(kMostRoom, weights), 0};
+      below.in_margin = true;  // the robot is as large as without them
+      box.add(below, sight.camera.flat(run.on_ground(place)));
     };
     hold_below(hold.place, hold.force.dot(run.ground.up));
     if (hold.pull > 0) hold_below(hold.pull_place, hold.pull);

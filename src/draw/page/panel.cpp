@@ -135,7 +135,7 @@ std::string Panel::event_note(int k, int events) const {
   std::string text;
   for (int i = std::max(0, int(end - begin) - events); i < int(end - begin); ++i) {
     const EventEntry& event = scene().events[std::size_t(hits.event[std::size_t(i)])];
-    text += (text.empty() ? "" : kBetweenEvents) + event.title() + " at " + time_text(hits.t[std::size_t(i)]);
+    text += (text.empty() ? "" : kBetweenEvents) + time_text(hits.t[std::size_t(i)]) + ": " + event.title();
   }
   if (events == 0 && end != begin) text = scene().events[std::size_t(hits.event[std::size_t(end - begin - 1)])].title();
   return text;

@@ -71,7 +71,7 @@ class Panel {
   ChainDrawing drawing(const ChainLook& look) const;
   ChainDrawing drawing() const { return drawing(look_); }
 
-  // "left the picture at t = 1.24 s, up to 3\u00D710\u2075 m away" from that frame on, or what happened last: "elbow straight at t = 1.24 s".
+  // "left the picture at t = 1.24 s, up to 3\u00D710\u2075 m away" from that frame on, or what happened last: "t = 1.24 s: elbow straight".
   std::string note(int k, int events = 2) const;  // of several kBetweenEvents
   std::string title() const { return motion_->title(); }
   // On the page, which it may be far beyond: the place of the chain that is farthest from the world's origin at a sample.

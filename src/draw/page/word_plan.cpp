@@ -138,14 +138,17 @@ double cost_of_tie(const Tie& tie, const Rect& box, const std::vector<Blocked>& 
   return line ? cost_of_line(line->from, line->to, near) : 0;
 }
 
+bool reaches(const Rect& box, const Obstacle& obstacle) {
+  Point from = obstacle.a, to = obstacle.b;
+  return cut_segment(widened(box, obstacle.radius + kWordAir), from, to);
+}
+
 // What lies there; of words that insist nothing takes it.
 WordPlan::Ground ground_of(const Rect& box, const std::vector<Blocked>& near, bool insists) {
   WordPlan::Ground ground = WordPlan::Ground::free;
   const Rect room = widened(box, kWordAir);
   for (const auto& [outside, obstacle] : near) {
-    if (!reaches(outside, room)) continue;
-    Point from = obstacle.a, to = obstacle.b;
-    if (!cut_segment(widened(box, obstacle.radius + kWordAir), from, to)) continue;
+    if (!reaches(outside, room) || !reaches(box, obstacle)) continue;
     if (insists) return WordPlan::Ground::poor;
     if (!obstacle.may_yield) return WordPlan::Ground::taken;
     ground = WordPlan::Ground::poor;
@@ -181,6 +184,10 @@ std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield) {
   for (const Item& item : picture.items) std::visit(ShapeObstacles{&found}, item.shape);
   for (Obstacle& obstacle : found) obstacle.may_yield = may_yield;
   return found;
+}
+
+bool lies_on(const Rect& box, const std::vector<Obstacle>& obstacles) {
+  return std::ranges::any_of(obstacles, [&box](const Obstacle& one) { return !one.may_yield && reaches(box, one); });
 }
 
 // The one of its name that is nearest to where the word is wished, and has no word at this frame yet.

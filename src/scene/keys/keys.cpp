@@ -116,7 +116,7 @@ std::vector<Chapter> chapters() {
         Row(told_frames(), read_frames, write_frames).example("frames: {H: hip}"),
         Row::section("foot", "foot: {heel: -0.06, toe: 0.19, height: 0}",
                      "a root link that stands on the ground: events may read `cop`, the centre of pressure below it, and `grf`, the force up; "
-                     "pictures show the force of the ground as an arrow, and where it would have to press beside the foot, or pull at it, say \"a real foot would tip here\": the chain's foot never turns"),
+                     "pictures show the force of the ground as an arrow, and where it would have to press beside the foot, or pull at it, say \"holds the foot: a real one would tip\": the chain's foot never turns"),
         Row("foot.heel", &Scene::foot, &Foot::heel, "along the ground, left of the toe").in("m"),
         Row("foot.toe", &Scene::foot, &Foot::toe, "along the ground").in("m"),
         Row("foot.height", &Scene::foot, &Foot::height, "of the ground, against gravity").in("m"),

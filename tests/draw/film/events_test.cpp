@@ -45,7 +45,7 @@ TEST_F(FallingHuman, IsNotedFromTheInstantOn) {
     EXPECT_EQ(note.find("hip where the knee was") != std::string::npos, t >= run_.events.t[1]) << t;
   }
   EXPECT_EQ(film.panel(0).note(119),
-            "centre of pressure leaves the foot at t = 1.53 s;  hip where the knee was at t = 1.65 s");
+            "t = 1.53 s: centre of pressure leaves the foot;  t = 1.65 s: hip where the knee was");
   EXPECT_EQ(film.panel(0).title(), "A standing human falls in 1.65 s");
 }
 
@@ -186,10 +186,30 @@ TEST_F(FallingHuman, APlumbLineFallsFromTheCentreOfMass) {
   EXPECT_GT(places[1], places[0] + 0.1);
 }
 
+// The last picture has the number of its instant, which is narrower than that of the peak in the film's frames: it keeps off the line of the fall, too.
+TEST_F(FallingHuman, NoLineStrikesTheNumbersOfTheLastPicture) {
+  scene_.video.width = 1920, scene_.video.height = 1080;
+  const Picture last = film(&simulation_).still(run_.size() - 1);
+  const Theme& theme = theme_named("light");
+  int numbers = 0, dashes = 0;
+  for (const Capsule& dash : test::all_of<Capsule>(last)) {
+    if (dash.paint.fill != theme.muted || std::abs(dash.a.y - dash.b.y) > 1e-9) continue;
+    ++dashes;
+    for (const GlyphRun& run : test::all_of<GlyphRun>(last)) {
+      if (run.color != theme.torque || run.glyphs.empty()) continue;
+      ++numbers;
+      const bool is_beside = dash.b.x < run.origin.x || dash.a.x > run.origin.x + run.glyphs.back().x;
+      EXPECT_TRUE(is_beside || dash.a.y < run.origin.y || dash.a.y > run.origin.y + 0.7 * run.size) << dash.a.y << " through letters on " << run.origin.y;
+    }
+  }
+  EXPECT_GT(dashes, 0);
+  EXPECT_GT(numbers, 0);
+}
+
 // Where a real foot would tip the picture says that this one is held, and nowhere else.
 TEST_F(FallingHuman, IsSaidToBeHeldWhereARealFootWouldTip) {
-  EXPECT_THAT(test::words_of(film(&simulation_).frame(run_.size() - 1)), HasSubstr("a real foot would tip here"));
-  EXPECT_THAT(test::words_of(film(&simulation_).frame(0)), Not(HasSubstr("real foot")));
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(run_.size() - 1)), HasSubstr("holds the foot: a real one would tip"));
+  EXPECT_THAT(test::words_of(film(&simulation_).frame(0)), Not(HasSubstr("a real one")));
 }
 
 // The mark of the centre of mass lies over the arcs of torques, which the last pose has about it; the page names the mark where the ground presses.
@@ -256,7 +276,7 @@ TEST_F(FallingHuman, TheGroundPushesFromBelowWhereThePressureIsMarked) {
   for (const Capsule& part : test::all_of<Capsule>(in_scene))
     if (part.paint.fill == force) lowest = std::min({lowest, part.a.y, part.b.y});
   EXPECT_NEAR(highest, mark->y, 0.002) << "the head ends there";
-  EXPECT_LT(lowest, mark->y - 0.1) << "the shaft comes from below";
+  EXPECT_LT(lowest, mark->y - 0.08) << "the shaft comes from below: a weight is 0.09 H";
   EXPECT_GT(lowest, film.scene_area().y0) << "the camera holds it";
   // The ground goes from side to side.
   double left = HUGE_VAL, right = -HUGE_VAL;
