@@ -40,6 +40,7 @@ enum class LayerNeeds {
   ROW(slider_springs, "springs", 8, nothing,                                                                \
       "torques that are linear in a coordinate or a rate as the springs and dampers that they are")         \
   ROW(chain_links, "chain", 0, nothing, "")                                                                 \
+  ROW(target_pulls, "target", 0, nothing, "")                                                               \
   ROW(joint_springs, "springs", 0, nothing, "")                                                             \
   ROW(limits, "limits", 12, nothing, "the limits of joints that the motion comes near to")                  \
   ROW(angles, "angles", 0, nothing, "the coordinates: of revolute joints arcs, of sliders lengths, from zero on") \

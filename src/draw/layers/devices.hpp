@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "draw/page/panel.hpp"
 #include "draw/page/stage.hpp"
 #include "sim/drive/linear_drive.hpp"
 
@@ -18,9 +19,16 @@ struct Device {
   bool is_all_of_it() const { return drive.whole && drive.is_spring(); }
 };
 
-// Those that the stage shows of a run: with its layer `springs`, on robots that are drawn as bars. Feedback to a reference is
+// Whether what drives a run is drawn as springs and targets: on bars, and on bodies that are seen obliquely, whose joints
+// have axes that are seen. Bodies seen flat from the front hide what is at their joints.
+bool shows_drives(const Stage& stage, const StagedRun& motion);
+
+// Those that the stage shows of such a run, with its layer `springs`; of sliders where their rails are drawn. Feedback to a reference is
 // none of them: the layer `target` shows it.
 std::vector<Device> devices_of(const Stage& stage, const StagedRun& motion);
+
+// In what colour lines lie below a coil that is drawn over bodies, to set it off from them; none over bars.
+Color casing_over(const Panel& panel);
 
 // Two directions across a revolute joint's axis, in W: that in which its link goes where the joint's value is zero, as its
 // parent stands, and a quarter turn on in its positive sense.

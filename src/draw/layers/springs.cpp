@@ -19,14 +19,23 @@ namespace chainreel {
 
 using Eigen::Vector3d;
 
+bool shows_drives(const Stage& stage, const StagedRun& motion) {
+  return !motion.shapes() || is_oblique(motion.chain(), stage.page.camera);
+}
+
+Color casing_over(const Panel& panel) {
+  return panel.motion().shapes() ? panel.look().theme->background : Color{};
+}
+
 std::vector<Device> devices_of(const Stage& stage, const StagedRun& motion) {
   std::vector<Device> devices;
-  if (!stage.shows("springs") || motion.simulation() == nullptr || motion.shapes() || motion.is_outlined()) return devices;
+  if (!stage.shows("springs") || motion.simulation() == nullptr || !shows_drives(stage, motion) || motion.is_outlined()) return devices;
   const Chain& chain = motion.chain();
   const Camera camera = view_of(chain, stage.page.camera);
   for (const LinearDrive& drive : linear_drives(*motion.simulation())) {
     if (drive.follows) continue;
     Device device{drive, body_of_freedom(chain, drive.freedom)};
+    if (motion.shapes() && chain.bodies[std::size_t(device.body)].joint.kind == JointKind::prismatic) continue;
     const Vector3d axis = pose_of(motion.pose_at(0), device.body).linear() * chain.bodies[std::size_t(device.body)].joint.axis;
     // Below, else on the left.
     const double up = camera.up.dot(axis), right = camera.right.dot(axis);
@@ -55,6 +64,8 @@ constexpr double kAnchorAway = 0.050;  // of a slider's anchor beyond the end of
 constexpr double kAnchorWidth = 0.060;
 constexpr double kSmallest = 0.8;      // of the size of coils and dashpots on full rails: on thin ones they would be a hair
 constexpr double kRestBeyond = 0.022;  // of the mark of rest, on both sides of the rail
+constexpr double kNameGap = 0.012, kNameFromAnchor = 0.09;  // units of H: of a spring's words, from the rail and along it
+constexpr double kOnBodies = 1.25;      // a spiral about the axis of a body, of that about the disc of a bar
 constexpr double kSideBySide = 0.23;   // of the rail's width: of a coil and a dashpot from its middle line
 
 using Devices = std::map<const StagedRun*, std::vector<Device>>;
@@ -80,7 +91,10 @@ const Rail* rail_of(const Skeleton& skeleton, int body) {
 // Between rails and carriages.
 class SliderSprings : public Layer {
  public:
-  explicit SliderSprings(const Stage& stage) : devices_(all_devices(stage, JointKind::prismatic)) {}
+  explicit SliderSprings(const Stage& stage)
+      : stage_(&stage), devices_(all_devices(stage, JointKind::prismatic)), is_named_(!stage.is_comparison() && !is_transparent(stage.page)) {}
+
+  bool has_words() const override { return is_named_ && !devices_.empty(); }
 
   void measure(const Sight& sight, FitBox& box) const override {
     for_each(sight.motion, [&](const Device& device) {
@@ -103,7 +117,7 @@ class SliderSprings : public Layer {
     for (const Device& device : own->second) act(device);
   }
 
-  static void draw_device(Picture& picture, const Shot& shot, const Device& device) {
+  void draw_device(Picture& picture, const Shot& shot, const Device& device) const {
     const Panel& panel = shot.panel;
     const ChainDrawing drawing = panel.drawing();
     const ChainLook& look = panel.look();
@@ -130,10 +144,27 @@ class SliderSprings : public Layer {
     if (device.drive.is_spring()) {
       draw_rest(picture, drawing, shot.ws, device, side, panel.clip());
       draw_coil(picture, anchor + apart, end + apart, width * (both ? 0.6 : 1), color, panel.clip());
+      if (is_named_) {
+        const double beside = look.rails * (size::kRailGap / 2 + kRestBeyond);
+        const std::string number = std::to_string(device.drive.freedom);
+        add_word(shot, "rest " + number, "rest", panel.camera().project(rail_point(drawing.chain, shot.ws, device.body, device.drive.rest)), side, beside);
+        add_word(shot, "stiffness " + number, "$k$ = " + format_significant(device.drive.stiffness, 3) + " N/m", anchor - kNameFromAnchor * away, side, beside);
+      }
     }
     if (device.drive.damping > 0)
       draw_dashpot(picture, anchor - apart, end - apart, width * (both ? 0.6 : 1), color,
                    look.theme->background, panel.clip());
+  }
+
+  // Beside the rail, on one side or the other.
+  void add_word(const Shot& shot, const std::string& name, const std::string& words, Point at, Point side, double beside) const {
+    if (!is_drawable(at)) return;
+    TextLine line = lay_out_words(stage_->fonts, words, {Face::label, scaled(size::kTick, stage_->page.text_scale), stage_->theme.torque, Align::left});
+    MarkWord word{name, line, {}};
+    // Farther where a carriage of another rail stands there.
+    for (const double gap : {kNameGap, 4 * kNameGap})
+      for (const double turn : {-1.0, 1.0}) word.places.push_back(place_beyond(line, at + turn * beside * side, gap, turn * side));
+    shot.labels.add(std::move(word));
   }
 
   // Beyond what the panel shows, as in runs that leave it, an anchor would be cut: it stands at the edge.
@@ -153,7 +184,9 @@ class SliderSprings : public Layer {
       draw_line(picture, {rest + at * side, rest + (at + dash) * side}, size::kRailLine, toned(look.theme->torque, look), clip);
   }
 
+  const Stage* stage_;
   Devices devices_;
+  bool is_named_;
 };
 
 // Over links and joints.
@@ -196,10 +229,11 @@ class JointSprings : public Layer {
       const double q = panel.motion().trajectory().q_at(shot.k)[std::size_t(
           panel.chain().bodies[std::size_t(device.body)].joint.q_index)];
       const Color color = toned(look.theme->torque, look);
-      const double size = look.joint_disc / size::kJointDisc;
+      const Color casing = casing_over(panel);
+      const double size = panel.motion().shapes() ? kOnBodies * panel.marks() : look.joint_disc / size::kJointDisc;
       if (device.drive.damping > 0)
         draw_vanes(picture, turn, q, size, color, tinted(look.theme->torque, kInsideOfVanes, look), panel.clip());
-      if (device.drive.is_spring()) draw_spiral(picture, turn, q, device.drive.rest, size, color, panel.clip());
+      if (device.drive.is_spring()) draw_spiral(picture, turn, q, device.drive.rest, size, color, panel.clip(), casing);
     }
   }
 

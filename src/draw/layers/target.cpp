@@ -1,5 +1,5 @@
-// The layer `target`: the pose that feedback follows, in outline below the chain, and what proportional feedback pulls with:
-// a coil from each joint's target to where it is; or the place that feedback in the space of the task pulls a frame to, with the coil
+// The layers `target`: the pose that feedback follows, in outline below the chain, and what proportional feedback pulls with:
+// a coil from each joint's target to where it is, over bodies, which would hide it; or the place that feedback in the space of the task pulls a frame to, with the coil
 // between both.
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTargetShown = 0.55;      // strength of the outline
+constexpr double kTargetBodies = 0.3;      // ... of bodies
 constexpr double kTargetStroke = 0.8;      // of an outline's width
 constexpr double kCoilAbout = 0.078;       // radius of coils about joints, units of H
 constexpr double kPlace = 0.013, kPlaceLine = 0.0025;  // of a place that a frame is pulled to: radius of its ring, width of its lines
@@ -26,12 +27,13 @@ constexpr double kShortestCoil = 0.004;    // units of H
 
 class Target : public Layer {
  public:
-  explicit Target(const Stage& stage) {
+  // `is_over`: what lies over bodies.
+  Target(const Stage& stage, bool is_over) : is_over_(is_over) {
     for (const StagedRun& motion : stage.motions) {
-      if (motion.is_outlined() || motion.simulation() == nullptr) continue;
-      if (std::vector<TaskTarget> places = task_targets_along(*motion.simulation(), motion.trajectory()); !places.empty())
+      if (motion.is_outlined() || motion.simulation() == nullptr || (is_over && !motion.shapes())) continue;
+      if (std::vector<TaskTarget> places = task_targets_along(*motion.simulation(), motion.trajectory()); !places.empty() && !is_over)
         places_.emplace(&motion, std::move(places));
-      if (motion.shapes()) continue;
+      if (!shows_drives(stage, motion)) continue;
       std::vector<double> q = references_along(*motion.simulation(), motion.trajectory());
       if (q.empty()) continue;
       followed_.emplace(&motion, followed_by(motion, std::move(q)));
@@ -44,7 +46,7 @@ class Target : public Layer {
     if (const auto places = places_.find(&sight.motion); places != places_.end() && sight.k < int(places->second.size()))
       add_place(sight, places->second[std::size_t(sight.k)], box);
     const auto found = followed_.find(&sight.motion);
-    if (found == followed_.end()) return;
+    if (found == followed_.end() || is_over_) return;
     pose(found->second, sight.motion.chain(), sight.k);
     const Workspace& ws = *found->second.ws;
     for (const LinkSegment& link : sight.motion.skeleton().links)
@@ -59,18 +61,9 @@ class Target : public Layer {
     if (found == followed_.end()) return;
     const Followed& followed = found->second;
     const ConstVec target = pose(followed, panel.chain(), shot.k);
-    ChainLook look = panel.look();
-    Theme theme = *look.theme;
-    theme.ink = theme.torque;
-    look.theme = &theme;
-    look.filled = false;
-    look.strength = kTargetShown;
-    look.stroke = kTargetStroke;
-    ChainDrawing drawing = panel.drawing(look);
-    drawing.only = &followed.is_driven;
-    draw_rails(picture, drawing, *followed.ws, panel.clip());
-    draw_links(picture, drawing, *followed.ws, panel.clip());
-    for (const LinearDrive& drive : followed.springs) draw_pull(picture, shot, drive, target);
+    if (!is_over_) draw_pose(picture, panel, followed);
+    if (is_over_ == (panel.motion().shapes() != nullptr))
+      for (const LinearDrive& drive : followed.springs) draw_pull(picture, shot, drive, target);
   }
 
  private:
@@ -81,6 +74,21 @@ class Target : public Layer {
     std::vector<double> at_rest;
     std::vector<bool> is_driven;        // bodies whose joint follows, by feedback that has gains or a model
   };
+
+  // In outline; of bodies pale, as earlier poses are.
+  static void draw_pose(Picture& picture, const Panel& panel, const Followed& followed) {
+    ChainLook look = panel.look();
+    Theme theme = *look.theme;
+    theme.ink = theme.torque;
+    look.theme = &theme;
+    look.filled = false;
+    look.strength = panel.motion().shapes() ? kTargetBodies : kTargetShown;
+    look.stroke = kTargetStroke;
+    ChainDrawing drawing = panel.drawing(look);
+    drawing.only = &followed.is_driven;
+    draw_rails(picture, drawing, *followed.ws, panel.clip());
+    draw_links(picture, drawing, *followed.ws, panel.clip());
+  }
 
   // What no gain drives follows nothing: it has no target, and stands as it stands.
   static Followed followed_by(const StagedRun& motion, std::vector<double> q) {
@@ -133,7 +141,7 @@ class Target : public Layer {
     const PageTurn turn{at,
                         {seen.right.dot(zero.along), seen.up.dot(zero.along)},
                         {seen.right.dot(zero.quarter), seen.up.dot(zero.quarter)}};
-    draw_round_coil(picture, turn, radius, wanted, q, panel.marks(), color, panel.clip());
+    draw_round_coil(picture, turn, radius, wanted, q, panel.marks(), color, panel.clip(), casing_over(panel));
   }
 
   static void add_place(const Sight& sight, const TaskTarget& target, FitBox& box) {
@@ -167,6 +175,7 @@ class Target : public Layer {
       picture.add(Capsule{at - 1.5 * radius * way, at + 1.5 * radius * way, panel.marks() * kPlaceLine / 2, {mark, {}, 0}}, panel.clip());
   }
 
+  bool is_over_;
   std::map<const StagedRun*, Followed> followed_;
   std::map<const StagedRun*, std::vector<TaskTarget>> places_;  // a sample each
 };
@@ -174,7 +183,11 @@ class Target : public Layer {
 }  // namespace
 
 std::unique_ptr<const Layer> make_layer_target(const Stage& stage) {
-  return std::make_unique<Target>(stage);
+  return std::make_unique<Target>(stage, false);
+}
+
+std::unique_ptr<const Layer> make_layer_target_pulls(const Stage& stage) {
+  return std::make_unique<Target>(stage, true);
 }
 
 }  // namespace chainreel

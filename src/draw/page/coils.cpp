@@ -10,9 +10,9 @@
 namespace chainreel {
 namespace {
 
-constexpr double kWire = 0.0036;       // units of H
-constexpr int kWindings = 8, kPiecesOfWinding = 14;
-constexpr double kCoilRadius = 0.0155;
+constexpr double kWire = 0.0042;       // units of H
+constexpr int kWindings = 10, kPiecesOfWinding = 14;
+constexpr double kCoilRadius = 0.0215;  // as wide as a full rail, which hides nothing of it
 constexpr double kLoop = 0.35;         // of the radius: how far a winding swings along the coil, which makes its loops
 constexpr double kLead = 0.012;        // of straight wire at both ends
 constexpr double kCylinder = 0.58, kPiston = 0.40, kCylinderWidth = 0.024;  // shares of the length; units of H
@@ -21,10 +21,21 @@ constexpr int kPiecesOfSpiral = 56;
 constexpr double kVanesInner = 0.0175;
 constexpr double kRoundCoil = 0.0085;  // half its width
 constexpr int kRoundWindings = 6;
+constexpr double kWireCasing = 0.0016;     // beside a wire over bodies, units of H
 constexpr double kRoundGrown = 0.05;   // units of H: a coil as long has its full width
 
 double width_of_wire(double size) {
   return std::max(0.6, size) * kWire;
+}
+
+void add_wire(Picture& picture, Trail path, int clip, Color casing) {
+  if (casing.a > 0) {
+    Trail below = path;
+    below.color = casing;
+    for (TrailPoint& point : below.points) point.width += 2 * kWireCasing;
+    picture.add(std::move(below), clip);
+  }
+  picture.add(std::move(path), clip);
 }
 
 }  // namespace
@@ -63,7 +74,7 @@ Point PageTurn::at(double radius, double angle) const {
   return center + (radius * std::cos(angle)) * u + (radius * std::sin(angle)) * w;
 }
 
-void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, double size, Color color, int clip) {
+void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, double size, Color color, int clip, Color casing) {
   const double width = width_of_wire(size);
   // The fixed end is opposite to the link at rest; a link that turns on unwinds it.
   const double outer = rest + std::numbers::pi;
@@ -76,7 +87,7 @@ void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, 
     path.points.push_back({turn.at(radius, outer - span * (1 - share)), width, 1});
   }
   const Point end = path.points.back().p;
-  picture.add(std::move(path), clip);
+  add_wire(picture, std::move(path), clip, casing);
   const double pin = 1.1 * width;
   picture.add(Ellipse{end, {pin, 0}, {0, pin}, {color, {}, 0}}, clip);
 }
@@ -101,7 +112,7 @@ void draw_vanes(Picture& picture, const PageTurn& turn, double q, double size, C
 }
 
 void draw_round_coil(Picture& picture, const PageTurn& turn, double radius, double from, double to, double size,
-                     Color color, int clip) {
+                     Color color, int clip, Color casing) {
   const double length = std::abs(to - from) * radius, grown = std::min(1.0, length / kRoundGrown);
   const int pieces = kRoundWindings * 8;
   Trail path;
@@ -111,7 +122,7 @@ void draw_round_coil(Picture& picture, const PageTurn& turn, double radius, doub
     const double swing = grown * size * kRoundCoil * std::sin(2 * std::numbers::pi * kRoundWindings * share);
     path.points.push_back({turn.at(radius + swing, from + share * (to - from)), width_of_wire(size) * grown, 1});
   }
-  picture.add(std::move(path), clip);
+  add_wire(picture, std::move(path), clip, casing);
 }
 
 }  // namespace chainreel

@@ -20,14 +20,14 @@ struct PageTurn {
 inline constexpr double kSpiralOuter = 0.046;  // radius, units of H
 
 // A spiral whose inner end turns with the link, at angle q, and whose outer end is fixed: where q = rest it has its own
-// number of windings.
-void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, double size, Color color, int clip);
+// number of windings. `casing`: of a wider line below it, over bodies; one that is transparent is none.
+void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, double size, Color color, int clip, Color casing = {});
 inline constexpr double kVanesOuter = 0.0285;    // radius, units of H
 inline constexpr double kInsideOfVanes = 0.25;   // of the colour's strength
 // A ring about the joint in which vanes turn with the link.
 void draw_vanes(Picture& picture, const PageTurn& turn, double q, double size, Color color, Color inside, int clip);
 // A coil along the arc from one angle to another, as flat as they are near.
 void draw_round_coil(Picture& picture, const PageTurn& turn, double radius, double from, double to, double size,
-                     Color color, int clip);
+                     Color color, int clip, Color casing = {});
 
 }  // namespace chainreel
