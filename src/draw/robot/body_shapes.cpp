@@ -214,11 +214,14 @@ std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSo
       read_visuals(model, chain, options, collision ? ShapesOf::collision : ShapesOf::visual);
   const bool any_moves =
       std::any_of(visuals.begin(), visuals.end(), [](const Visual& visual) { return visual.body > 0; });
-  if (look.links == LinkShapes::automatic && !any_moves) {
+  // A chain in numbers has rods, all alike, in the text that is made of it: bodies say more.
+  if (look.links == LinkShapes::automatic && (!any_moves || model.links)) {
     BodyShapes made = made_bodies(chain);
-    if (made.shapes.empty()) return nullptr;
-    put_in_daylight(made, chain);
-    return std::make_shared<const BodyShapes>(std::move(made));
+    if (made.shapes.empty() && !any_moves) return nullptr;
+    if (!made.shapes.empty()) {
+      put_in_daylight(made, chain);
+      return std::make_shared<const BodyShapes>(std::move(made));
+    }
   }
   if (visuals.empty())
     throw Error(

@@ -68,7 +68,7 @@ struct BodyLook {
   Place place;  // of `links`
 };
 
-// None for bars, nor with auto where the view is flat. With auto, bodies are made where nothing that moves has a shape
+// None for bars, nor with auto where the view is flat. With auto, bodies are made where nothing that moves has a shape, and of chains in numbers
 // (draw/robot/made_bodies), and links that are all of one grey get two light tints in turn. Throws Error as above, and where
 // `visual` finds none.
 std::shared_ptr<const BodyShapes> shapes_for(const BodyLook& look, const ModelSource& model,

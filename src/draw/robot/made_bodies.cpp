@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "draw/robot/fit.hpp"
 #include "dynamics/kinematics.hpp"
 #include "mesh/primitives.hpp"
 
@@ -20,6 +21,9 @@ constexpr double kWaist = 0.85;                       // width between two carri
 constexpr double kFlat = 0.45, kDeep = 0.70;          // its depth, of its width
 constexpr double kBeside = 0.6;                       // of the way along a limb: a mass farther to its side makes a foot
 constexpr double kBall = 1.04;                        // radius of a joint, of that of the thicker limb
+constexpr double kPlinthWide = 2.2, kPlinthHigh = 1.4;  // radius and height, of the radius of the limb that stands there
+constexpr double kUpright = 1e-6;                     // sine between an axis and the vertical, far above round-off of files
+constexpr Color kPlinthColor = color_of(0x8A9099);
 constexpr Color kBallColor = color_of(0x6F7B8A);
 
 // What is known of a body before it has a shape.
@@ -55,6 +59,7 @@ class Maker {
     for (int b = 0; b < int(chain_.bodies.size()); ++b)
       if (of(b).carries()) add_head(b);
     add_balls();
+    add_plinths();
     return std::move(result_);
   }
 
@@ -177,7 +182,9 @@ class Maker {
     const double length = end.norm();
     const double filled = std::sqrt(of(body).mass / (kDensity * std::numbers::pi * length));
     of(body).radius = std::clamp(std::clamp(filled, kSlim * length, kStout * length), kThinnest * longest_, kThickest * longest_);
-    add_capsule(body, Vector3d::Zero(), end, of(body).radius, tint(body));
+    // What stands upright on a plinth ends in it, and not below the ground.
+    const Vector3d begin = stands_upright(body) ? Vector3d(std::min(of(body).radius, length / 2) * end.normalized()) : Vector3d::Zero();
+    add_capsule(body, begin, end, of(body).radius, tint(body));
   }
 
   // Between two carriers, as wide as they are along their longest sides.
@@ -263,8 +270,41 @@ class Maker {
         is_hidden |= !of(c).ends.empty() && carrier_above(c) >= 0 && (of(c).carries() || carrier_below(c) >= 0);
       }
       if (const int limb = above(b); limb >= 0 && of(limb).ends.size() == 1) radius = std::max(radius, of(limb).radius);
-      if (!(radius > 0) || is_hidden) continue;
+      if (!(radius > 0) || is_hidden || bears_plinth(b)) continue;
       add(b, Vector3d::Zero(), Eigen::Matrix3d::Identity(), Vector3d::Constant(2 * kBall * radius), kBall * radius, kBallColor);
+    }
+  }
+
+  // What turns about an upright axis on the world, where no trunk stands.
+  bool bears_plinth(int body) const {
+    const Joint& joint = chain_.bodies[std::size_t(body)].joint;
+    return body > 0 && of(0).ends.empty() && parent(body) == 0 && joint.kind == JointKind::revolute &&
+           (pose_of(zero_, body).linear() * joint.axis).cross(up_of(chain_)).norm() < kUpright;
+  }
+  bool stands_upright(int body) const {
+    const Vector3d along = pose_of(zero_, body).linear() * of(body).ends.front();
+    return bears_plinth(body) && along.cross(up_of(chain_)).norm() < kUpright * along.norm() && along.dot(up_of(chain_)) > 0;
+  }
+
+  // Around the foot of an upright limb; below one that lies.
+  void add_plinths() {
+    const Vector3d up = up_of(chain_);
+    for (int b = 1; b < int(limbs_.size()); ++b) {
+      if (!bears_plinth(b)) continue;
+      const Eigen::Isometry3d pose = pose_of(zero_, b);
+      int limb = b;  // that is as thick as the plinth is to bear
+      while (limb + 1 < int(limbs_.size()) && !(of(limb).radius > 0)) ++limb;
+      const double radius = of(limb).radius;
+      if (!(radius > 0)) continue;
+      BodyShape shape;
+      shape.body = 0;
+      shape.X_BM.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up).toRotationMatrix();
+      const bool is_around = !of(b).ends.empty() && stands_upright(b);
+      shape.X_BM.translation() = pose.translation() + (is_around ? 1 : -1) * kPlinthHigh * radius / 2 * up;
+      shape.mesh = std::make_shared<const TriangleMesh>(cylinder_mesh(kPlinthWide * radius, kPlinthHigh * radius));
+      shape.color = kPlinthColor;
+      measure_corners(shape);
+      result_.shapes.push_back(std::move(shape));
     }
   }
 
