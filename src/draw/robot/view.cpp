@@ -64,13 +64,20 @@ Camera planar_view(const Chain& chain) {
   return camera;
 }
 
-// Azimuth 0, elevation 0: the plane's own view, or x to the right and z up.
+// Against gravity where that acts along an axis of the world; z where it does not, or there is none.
+Vector3d upright_axis(const Chain& chain) {
+  for (const Vector3d& axis : {Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitY()), Vector3d(Vector3d::UnitZ())})
+    if (const double along = chain.gravity.dot(axis); (chain.gravity - along * axis).norm() < kNegligible * std::abs(along)) return along > 0 ? Vector3d(-axis) : axis;
+  return Vector3d::UnitZ();
+}
+
+// Azimuth 0, elevation 0: the plane's own view, or x to the right and z up; as far as gravity leaves it so.
 Camera front_view(const Chain& chain) {
   if (chain.planar) return planar_view(chain);
   Camera camera;
-  camera.right = Vector3d::UnitX();
-  camera.up = Vector3d::UnitZ();
-  camera.toward_viewer = -Vector3d::UnitY();
+  camera.up = upright_axis(chain);
+  camera.right = std::abs(camera.up.x()) > 0.5 ? Vector3d::UnitY() : Vector3d::UnitX();
+  camera.toward_viewer = camera.right.cross(camera.up);
   return camera;
 }
 
