@@ -2,7 +2,9 @@
 // must not go.
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numbers>
+#include <set>
 
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
@@ -22,10 +24,13 @@ constexpr double kAnglePiece = 0.08;    // rad
 constexpr double kSmallestAngle = 0.06; // rad: with less the symbol stands alone
 constexpr double kBesideCarriage = 0.058;  // units of H, of a slider's length
 
-constexpr double kNearLimit = 10 * std::numbers::pi / 180;  // rad: from here on a limit is seen
-constexpr double kNearEnd = 0.05;       // of a slider's range, the same
+constexpr double kNearLimit = 20 * std::numbers::pi / 180;  // rad: a run that comes as near has the limit in all its pictures
+constexpr double kNearOfRange = 0.25;   // ... and no more of the range
+constexpr double kNearEnd = 0.10;       // of a slider's range, the same
+constexpr double kFarLimit = 0.4;       // strength of a limit while nothing is near
+constexpr double kWayToLimit = 2;       // times as near: from there on an arc leads from the link to the limit, ever stronger
 constexpr double kLimitArc = 25 * std::numbers::pi / 180;  // of the arc beyond the limit
-constexpr double kLimitFrom = 0.032, kLimitRadius = 0.062, kLimitLine = 0.0045;
+constexpr double kLimitFrom = 0.032, kLimitRadius = 0.062, kLimitLine = 0.0045, kLimitWay = 0.0022;
 
 // The joints that have a coordinate of their own, not shared by mimicry.
 template <class Do>
@@ -141,7 +146,21 @@ class Angles : public Layer {
 
 class Limits : public Layer {
  public:
-  explicit Limits(const Stage& stage) : theme_(&stage.theme) {}
+  explicit Limits(const Stage& stage) : theme_(&stage.theme) {
+    for (const StagedRun& motion : stage.motions) {
+      if (!is_of(motion) || motion.shapes()) continue;
+      for (const JointKind kind : {JointKind::revolute, JointKind::prismatic})
+        for_each_joint(motion.chain(), kind, [&](int body, const Joint& joint) {
+          const double near = near_limit(joint);
+          for (const bool is_upper : {false, true})
+            for (int k = 0; near > 0 && k < motion.counted(); ++k)
+              if (left_to(joint, is_upper, motion.trajectory().q_at(k)[std::size_t(joint.q_index)]) < near) {
+                approached_.insert({&motion, body, is_upper});
+                break;
+              }
+        });
+    }
+  }
 
   UnderWords under_words() const override { return UnderWords::if_need_be; }
 
@@ -149,18 +168,34 @@ class Limits : public Layer {
     if (shot.panel.motion().shapes()) return;
     for (const JointKind kind : {JointKind::revolute, JointKind::prismatic})
       for_each_joint(shot.panel.chain(), kind, [&](int body, const Joint& joint) {
-        const double q = coordinate(shot, joint), lower = joint.limit.lower, upper = joint.limit.upper;
-        const double near = kind == JointKind::revolute ? kNearLimit : kNearEnd * (upper - lower);
-        if (!(std::isfinite(lower) && std::isfinite(upper) && lower < upper)) return;
+        const double q = coordinate(shot, joint);
         for (const bool is_upper : {false, true}) {
-          const double left = is_upper ? upper - q : q - lower;  // below zero beyond
-          const double shown = std::clamp(1.5 * (1 - left / near), 0.0, 1.0);
-          if (shown > 0) draw_limit(picture, shot, body, kind, is_upper ? upper : lower, is_upper ? 1 : -1, shown);
+          if (!approached_.contains({&shot.panel.motion(), body, is_upper}) || !std::isfinite(q)) continue;
+          const double nearness = std::clamp(kWayToLimit - left_to(joint, is_upper, q) / near_limit(joint), 0.0, 1.0);
+          const double limit = is_upper ? joint.limit.upper : joint.limit.lower, sign = is_upper ? 1 : -1;
+          if (kind == JointKind::revolute && sign * (limit - q) > 0) draw_way(picture, shot, body, q, limit, nearness);
+          draw_limit(picture, shot, body, kind, limit, sign, kFarLimit + nearness * (1 - kFarLimit));
         }
       });
   }
 
  private:
+  // How near a run comes to a limit for that to be shown; 0 where the joint has none.
+  static double near_limit(const Joint& joint) {
+    const double range = joint.limit.upper - joint.limit.lower;
+    if (!std::isfinite(range) || !(range > 0)) return 0;
+    return joint.kind == JointKind::revolute ? std::min(kNearLimit, kNearOfRange * range) : kNearEnd * range;
+  }
+  // Below zero beyond it.
+  static double left_to(const Joint& joint, bool is_upper, double q) { return is_upper ? joint.limit.upper - q : q - joint.limit.lower; }
+
+  // What is left until there.
+  void draw_way(Picture& picture, const Shot& shot, int body, double q, double limit, double shown) const {
+    const PageTurn turn = turn_about(shot.panel, shot.ws, body);
+    if (!(shown > 0) || !is_drawable(turn.center)) return;
+    draw_arc(picture, turn, shot.panel.marks() * kLimitRadius, q, limit, kLimitWay, theme_->base.faded(shown), shot.panel.clip());
+  }
+
   void draw_limit(Picture& picture, const Shot& shot, int body, JointKind kind, double limit, double sign,
                   double shown) const {
     const Panel& panel = shot.panel;
@@ -189,7 +224,16 @@ class Limits : public Layer {
     }
   }
 
+  // Which limits a run comes near to: of a body's joint the lower or the upper one.
+  struct Approached {
+    const StagedRun* motion;
+    int body;
+    bool is_upper;
+    auto operator<=>(const Approached&) const = default;
+  };
+
   const Theme* theme_;
+  std::set<Approached> approached_;
 };
 
 }  // namespace
