@@ -16,6 +16,7 @@
 #include "draw/layers/ellipse.hpp"
 #include "draw/layers/ellipsoid.hpp"
 #include "draw/layers/fading.hpp"
+#include "draw/layers/ground_plane.hpp"
 #include "draw/page/mark_labels.hpp"
 #include "draw/page/panel_grid.hpp"
 #include "draw/page/word_plan.hpp"
@@ -32,6 +33,17 @@ namespace {
 constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
 constexpr double kNearlyInfinite = 32;  // times the median
 
+// The ground that a robot seen obliquely stands on, with its shadow.
+void draw_below(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, bool is_seen_obliquely, const Rect& scene, int clip) {
+  if (!is_seen_obliquely) return;
+  MotionBox places(up_of(drawing.chain));
+  extend(places, drawing.chain, drawing.skeleton, drawing.shapes, ws, std::numeric_limits<double>::infinity());
+  const auto ground = ground_under(places, drawing.camera);
+  if (!ground) return;
+  draw_ground_plane(picture, *ground, drawing.camera, drawing.look.theme->rule, scene, clip);
+  draw_shadow(picture, drawing, ws, scene, clip);
+}
+
 // How many semi-axes have no number, for want of room.
 int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose& pose, Workspace& ws) {
   const Theme& theme = *panels.options.theme;
@@ -42,7 +54,6 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
   picture.add(Polygon{{Point{frame.x0, frame.y0}, {frame.x1, frame.y0}, {frame.x1, frame.y1}, {frame.x0, frame.y1}},
                       4,
                       {{}, theme.rule, size::kFrameLine}});
-  const std::size_t framed = picture.items.size();
   Camera camera = panels.camera;
   camera.origin = camera.origin + Point{scene.x0 - first.x0, scene.y0 - first.y0};
   const std::vector<double> at_rest(std::size_t(panels.chain.nv), 0.0);
@@ -50,6 +61,8 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
   const ChainDrawing drawing{panels.chain, panels.skeleton, camera,
                              narrowed(look_of(panels.skeleton, camera, theme, 1, panels.marks), panels.widest_link),
                              panels.options.shapes.get()};
+  draw_below(picture, drawing, ws, is_oblique(panels.chain, panels.options.camera), scene, clip);
+  const std::size_t framed = picture.items.size();
   const Point tip = camera.project(tip_position(panels.chain, ws));
   EllipseStyle style{&theme, &panels.fonts,         panels.options.text_scale, panels.scale.per_unit(),
                      panels.picture(i),  panels.options.reading};

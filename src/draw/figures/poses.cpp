@@ -100,7 +100,7 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   picture.clips = {sheet.scene};
   const auto ground = is_oblique(chain, options.camera) ? ground_under(stage.motion, camera) : std::nullopt;
   if (ground)
-    draw_ground_plane(picture, *ground, camera, *options.theme, sheet.scene, kSceneClip);
+    draw_ground_plane(picture, *ground, camera, options.theme->rule, sheet.scene, kSceneClip);
   const auto drawing = [&](double strength) {
     return ChainDrawing{chain, skeleton, camera, look_of(skeleton, camera, *options.theme, strength),
                         options.shapes.get()};

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <variant>
 
+#include "draw/layers/ground_plane.hpp"
 #include "draw/layers/layer.hpp"
+#include "draw/page/scales.hpp"
 #include "draw/robot/chain.hpp"
 #include "draw/robot/chain_fit.hpp"
 #include "draw/robot/joints.hpp"
@@ -18,7 +20,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLineBeyond = 0.060;     // of the part that the motion uses, on both sides, units of H
-constexpr double kPlaneShown = 0.12;      // opacity of a plane in space
+constexpr double kPlaneBeyond = 0.2;      // of a plane in space, about that part: it has faded out there
+constexpr double kPlaneCells = 14;        // about, over its diameter: closer than the ground's, which may lie in the same plane
 constexpr double kCurvePiece = 0.010;     // of a curve, units of H
 constexpr int kMostCurvePieces = 3000;
 constexpr double kRodWidth = 0.011, kRodEnd = 0.0085;  // radius of its ends
@@ -130,15 +133,13 @@ class Constraints : public Layer {
     const Vector3d first = (near - normal.dot(near) * normal).normalized(), second = normal.cross(first);
     const auto [a0, a1] = used_part(panel.motion(), *frame, plane.point, first);
     const auto [b0, b1] = used_part(panel.motion(), *frame, plane.point, second);
-    const double beyond = kLineBeyond / panel.camera().scale;
-    Polygon patch{{}, 4, {panel.look().theme->base.faded(kPlaneShown), panel.look().theme->base, size::kLinkOutline}};
-    const std::array<std::array<double, 2>, 4> corners{
-        {{a0 - beyond, b0 - beyond}, {a1 + beyond, b0 - beyond}, {a1 + beyond, b1 + beyond}, {a0 - beyond, b1 + beyond}}};
-    for (std::size_t i = 0; i < 4; ++i) {
-      patch.corners[i] = panel.camera().project(plane.point + corners[i][0] * first + corners[i][1] * second);
-      if (!is_drawable(patch.corners[i])) return;
-    }
-    picture.add(patch, panel.clip());
+    // A grid that fades as the ground's does: it has no edges that the page could cut.
+    GroundPlane patch;
+    patch.up = normal;
+    patch.middle = plane.point + (a0 + a1) / 2 * first + (b0 + b1) / 2 * second;
+    patch.radius = std::hypot(a1 - a0, b1 - b0) / 2 + kPlaneBeyond / panel.camera().scale;
+    patch.spacing = round_length(2 * patch.radius / kPlaneCells);
+    draw_ground_plane(picture, patch, panel.camera(), toned(panel.look().theme->base, panel.look()), panel.area(), panel.clip());
   }
 
   // From where the frame is sought first, both ways, until it leaves the picture or comes back.

@@ -41,7 +41,7 @@ std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& c
   return ground;
 }
 
-void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, const Theme& theme,
+void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, Color color,
                        const Rect& area, int clip) {
   const Fade edges{area, kFades, kFades, kFades, kFades};
   const std::array<Vector3d, 2> axes = along(ground.up);
@@ -52,7 +52,7 @@ void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera
     for (double k = first; k * ground.spacing <= middle + ground.radius; ++k) {
       const double off = k * ground.spacing - middle;
       const double half = std::sqrt(std::max(0.0, ground.radius * ground.radius - off * off));
-      Trail way{{}, theme.rule};
+      Trail way{{}, color};
       for (int piece = 0; piece <= kPieces; ++piece) {
         const double at = half * (2.0 * piece / kPieces - 1);
         const Point p = camera.project(ground.middle + off * step + at * line);
@@ -88,7 +88,7 @@ class GroundLayer : public OnGround {
   UnderWords under_words() const override { return UnderWords::freely; }
   void draw_once(Picture& picture, const Panel& panel) const override {
     if (const auto ground = ground_of(panel))
-      draw_ground_plane(picture, *ground, panel.camera(), theme(), panel.area(), panel.clip());
+      draw_ground_plane(picture, *ground, panel.camera(), theme().rule, panel.area(), panel.clip());
   }
 };
 

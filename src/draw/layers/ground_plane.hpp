@@ -22,7 +22,7 @@ struct GroundPlane {
 std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& camera);
 
 // Fades with the distance from the middle, and before the edges of `area`.
-void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, const Theme& theme,
+void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, Color color,
                        const Rect& area, int clip);
 
 }  // namespace chainreel
