@@ -19,10 +19,10 @@ double freshness(double age, double length) {
   return std::clamp(1 - age / length, 0.0, 1.0);
 }
 
-TrailPoint trail_point(const TipPath& path, double t, double now, double lines, double length) {
+TrailPoint trail_point(const TipPath& path, double t, double now, double lines, double length, double opacity) {
   const double fresh = freshness(now - t, length);
   return {path.at(t), lines * (size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail)),
-          kTrailOpacity * fresh};
+          opacity * fresh};
 }
 
 bool stays_on_rail(const StagedRun& motion) {
@@ -59,7 +59,7 @@ class TrailLayer : public Layer {
 
   void draw(Picture& picture, const Shot& shot) const override {
     if (on_rails_.contains(&shot.panel.motion())) return;
-    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip(), theme_->lines, theme_->trail);
+    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip(), theme_->lines, theme_->trail, trail_opacity(*theme_));
   }
 
  private:
@@ -119,7 +119,11 @@ std::set<const StagedRun*> runs_on_rails(const Stage& stage) {
   return found;
 }
 
-void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines, double length) {
+double trail_opacity(const Theme& theme) {
+  return theme.background.g < 128 ? kTrailOpacityOnDark : kTrailOpacity;
+}
+
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines, double length, double opacity) {
   const double now = path.time(k);
   const double since = path.gapless_since(k, now - length);
   if (!(since < now)) return;
@@ -129,15 +133,15 @@ void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int c
     const double from = std::max(since, path.time(i)), to = path.time(i + 1);
     const int pieces = path.pieces(i, kPiece, kMostPieces);
     for (int j = 0; j < pieces; ++j)
-      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now, lines, length));
+      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now, lines, length, opacity));
   }
-  trail.points.push_back(trail_point(path, now, now, lines, length));
+  trail.points.push_back(trail_point(path, now, now, lines, length, opacity));
   picture.add(std::move(trail), clip);
 
   // The dots stand still while the trail moves on: they belong to whole tenths of a second of the film.
   const double r = lines * size::kTrailDot / 2;
   for (int i = int(std::ceil(since * kTrailDotsPerSecond)); double(i) / kTrailDotsPerSecond <= now; ++i) {
-    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now, lines, length);
+    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now, lines, length, opacity);
     if (at.alpha > 0) picture.add(Ellipse{at.p, {r, 0}, {0, r}, {color.faded(at.alpha), {}, 0}}, clip);
   }
 }

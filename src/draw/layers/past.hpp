@@ -12,9 +12,11 @@ namespace chainreel {
 // The trail: the last second, or as many as a style says, thinner and fainter with age, with dots every 0.1 s.
 inline constexpr double kTrailSeconds = 1.0;
 inline constexpr int kTrailDotsPerSecond = 10;
-inline constexpr double kTrailOpacity = 0.7;
+inline constexpr double kTrailOpacity = 0.7, kTrailOpacityOnDark = 0.9;  // where it begins: on dark ground the same is fainter
+double trail_opacity(const Theme& theme);
 // The trail as it stands at frame k; `lines`: times its width; `length`: how far it goes back, s.
-void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines = 1, double length = kTrailSeconds);
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines = 1, double length = kTrailSeconds,
+                double opacity = kTrailOpacity);
 
 // Those whose end effector only goes to and fro on one rail that is drawn, and shows its way: a trail along that would be taken for a rod.
 std::set<const StagedRun*> runs_on_rails(const Stage& stage);
