@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/format.hpp"
+#include "draw/film/needles.hpp"
 #include "draw/film/strip_axes.hpp"
 #include "picture/point.hpp"
 #include "picture/thin_points.hpp"
@@ -134,10 +135,10 @@ std::vector<Point>::const_iterator leaves_at(const StripCurve& curve, const Axis
   return std::find_if(inside.base(), curve.points.end(), is_out);
 }
 
-// " m" of "q [m]".
+// " m" of "q [m]"; of "q [rad, m]" nothing.
 std::string unit_in(const std::string& title) {
   const std::size_t unit = title.find_last_of('[');
-  return unit != std::string::npos && title.ends_with("]") ? " " + title.substr(unit + 1, title.size() - unit - 2) : "";
+  return unit != std::string::npos && title.ends_with("]") && title.find(',', unit) == std::string::npos ? " " + title.substr(unit + 1, title.size() - unit - 2) : "";
 }
 
 // The largest number that it has shows what the axis does not: "to 7\u00D710\u2078 m", with the unit of the title.
@@ -228,6 +229,7 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
     if (lay_out_words(*style_.fonts, said, words).advance <= inner.width()) values.title = data_.title = said;
   }
   frame_ = lay_out_plot(inner, time_axis(data_.end), values, style_);
+  needles_ = needles_of(data_.curves, frame_.y);
   // What a run that went wild does behind the point where it leaves the plot is no motion.
   for (StripCurve& curve : data_.curves) {
     const auto out = leaves_at(curve, frame_.y);
@@ -244,7 +246,13 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
 void PlotStrip::draw_static(Picture& picture) const {
   if (data_.accurate_until < frame_.x.high) draw_zone(picture, frame_, {data_.accurate_until, frame_.y.low}, {frame_.x.high, frame_.y.high}, style_.theme->grid);
   draw_axes(picture, frame_, style_);
-  draw_note(picture);
+  draw_needle_heads(picture, frame_, needles_, data_.curves, HUGE_VAL, kPale);
+  const std::string unit = unit_in(data_.title);
+  std::string note = data_.note;
+  // What has no room in the plot stands above it.
+  if (!draw_needle_numbers(picture, frame_, needles_, data_.curves, unit, style_) && note.empty())
+    note = "to " + number_of(std::ranges::max(needles_, {}, [](const Needle& one) { return std::abs(one.peak.y); }), unit);
+  draw_note(picture, note);
   std::vector<EndLabel> ends;
   for (const StripCurve& curve : data_.curves) {
     draw_part(picture, frame_, curve, HUGE_VAL, *style_.theme, kPale);
@@ -259,10 +267,10 @@ void PlotStrip::draw_static(Picture& picture) const {
 }
 
 // Beside the title of the vertical axis, or not at all.
-void PlotStrip::draw_note(Picture& picture) const {
-  if (data_.note.empty()) return;
+void PlotStrip::draw_note(Picture& picture, const std::string& words) const {
+  if (words.empty()) return;
   const TextLine title = lay_out_words(*style_.fonts, data_.title, {Face::label, style_.text(size::kAxis), style_.theme->ink});
-  const TextLine note = lay_out_words(*style_.fonts, data_.note, {Face::label, style_.text(size::kTick), style_.theme->muted, Align::right});
+  const TextLine note = lay_out_words(*style_.fonts, words, {Face::label, style_.text(size::kTick), style_.theme->muted, Align::right});
   // Over the names of curves, too, where the frame is narrow.
   const double right = std::max(frame_.box.x1, area_.x0 + title.advance + kNoteGap + note.advance);
   if (right <= area_.x1 + kSameEnd) draw_text(picture, note, {right, frame_.box.y1 + title_above_frame(style_)});
@@ -270,6 +278,7 @@ void PlotStrip::draw_note(Picture& picture) const {
 
 void PlotStrip::draw_frame(Picture& picture, double t) const {
   for (const StripCurve& curve : data_.curves) draw_part(picture, frame_, curve, t, *style_.theme, 1);
+  draw_needle_heads(picture, frame_, needles_, data_.curves, t, 1);
   draw_cursor(picture, frame_, std::clamp(t, frame_.x.low, frame_.x.high), style_.theme->ink);
 }
 

@@ -36,6 +36,13 @@ struct StripData {
   std::string note{};                // above the frame, at its right end, where it has room
 };
 
+// A stretch of a curve beyond an axis that leaves it out (draw/film/needles).
+struct Needle {
+  Point peak;  // (t, y)
+  std::size_t curve = 0;
+  bool is_up = false;
+};
+
 class PlotStrip {
  public:
   PlotStrip(StripData data, const Rect& area, const PlotStyle& style);
@@ -48,12 +55,13 @@ class PlotStrip {
   void narrow_to(double x0, double x1) { frame_.box.x0 = x0, frame_.box.x1 = x1; }
 
  private:
-  void draw_note(Picture& picture) const;
+  void draw_note(Picture& picture, const std::string& words) const;
 
   StripData data_;
   Rect area_;
   PlotStyle style_;
   PlotFrame frame_;
+  std::vector<Needle> needles_;
 };
 
 // From the lowest to the highest of those that are finite; 0 of none.

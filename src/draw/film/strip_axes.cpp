@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/film/needles.hpp"
+
 namespace chainreel {
 namespace {
 
@@ -57,6 +59,7 @@ Axis value_axis(const StripData& data) {
   }
   if (!(low <= high)) low = 0, high = 1;
   if (data.has_poles && low > 0 && high > kSpanOfLog * low) return pole_axis(data, low);
+  if (const auto rest = range_without_needles(data, {low, high})) low = rest->low, high = rest->high;
   const double size = std::max(std::abs(low), std::abs(high));
   const bool is_constant = high - low <= kLeastSpan * size || size == 0;
   const double constant = (low + high) / 2;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <utility>
 
 #include "core/format.hpp"
 #include "draw/layers/beside_links.hpp"
@@ -158,12 +159,15 @@ class VectorLayer : public Layer {
     if (!is_new) return known->second;
     const double half = panel.look().link_width / 2;
     std::map<VectorName, std::vector<LiesAlong>> along;
+    std::map<VectorName, double> lanes;
     for (int k = 0; k <= panel.last(); ++k) {
       const Workspace& ws = motion.pose_at(k);
       const std::vector<PageLine> links = motion.shapes() ? std::vector<PageLine>() : links_on_page(panel, ws);
       Names names;
-      for (const WorldVector& vector : vectors_at_(motion, ws, k)) {
+      for (WorldVector& vector : vectors_at_(motion, ws, k)) {
         const VectorName name = names.next(vector);
+        // Those that act side by side go together.
+        lanes[name] = std::abs(std::exchange(vector.lane, 0));
         // Those of sliders and of ties have a place beside what they act on.
         if (vector.kind == VectorKind::torque || vector.kind == VectorKind::joint_force || vector.pushes) continue;
         const PageLine arrow = pen_.line_of(vector, panel.camera(), panel.marks());
@@ -176,7 +180,7 @@ class VectorLayer : public Layer {
     motion.pose_at(drawn);
     for (const auto& [name, frames] : along) {
       std::vector<double> ways = ways_aside(frames, stage_->page.video.fps.value());
-      for (double& one : ways) one *= way_beside(panel.look());
+      for (double& one : ways) one *= way_beside(panel.look()) + panel.marks() * lanes[name];
       known->second.emplace(name, std::move(ways));
     }
     return known->second;
@@ -210,6 +214,7 @@ class VectorLayer : public Layer {
   // unless all do: their arrows are cut.
   static VectorScales scales_of(const Stage& stage, const VectorsAt& vectors_at) {
     VectorMagnitudes magnitudes;
+    std::vector<Magnitude> ties;  // at each sample the largest
     for (std::size_t i = 0; i < stage.full_panels(); ++i) {
       const StagedRun& motion = stage.motions[i];
       const Chain& chain = motion.chain();
@@ -218,10 +223,17 @@ class VectorLayer : public Layer {
         const Workspace& ws = motion.pose_at(k);
         // Where a run goes wild its forces say nothing.
         if (chain.end_effector >= 0 && !(tip_position(chain, ws).norm() <= motion.limit())) break;
-        for (const WorldVector& vector : vectors_at(motion, ws, k)) magnitudes.add(vector, lasts(stage.times, std::size_t(k)));
+        const double weight = lasts(stage.times, std::size_t(k));
+        ties.push_back({0, weight});
+        for (const WorldVector& vector : vectors_at(motion, ws, k)) {
+          magnitudes.add(vector, weight);
+          if (vector.kind == VectorKind::constraint) ties.back().size = std::max(ties.back().size, vector.value.norm());
+        }
       }
     }
     auto full = magnitudes.full();
+    double& of_ties = full[std::size_t(VectorKind::constraint)];
+    of_ties = without_needles(of_ties, std::move(ties));
     leave_out_noise(full, stage.motions.front().skeleton().reach);
     return {full, stage.share_of_lengths()};
   }

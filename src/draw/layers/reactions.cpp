@@ -13,6 +13,7 @@ using Eigen::Vector3d;
 constexpr double kAlongPushed = 0.1;    // cosine of the largest angle from a force to the link that it pushes
 constexpr double kSameSize = 1e-6;      // of the multipliers' sizes: rounding of directions is far below, other directions far above
 constexpr std::size_t kMostInName = 3;  // rows: of more a name is longer than arrows
+constexpr double kBetweenShares = 0.02;  // units of H at usual marks, between arrows that stand beside one another: heads are 0.018 wide
 
 // What acts at one place is one force.
 std::vector<Reaction> joined_at_frames(const std::vector<Reaction>& reactions) {
@@ -57,9 +58,9 @@ Sums sums_of(const std::vector<int>& rows, const Multipliers& lambda) {
 
 }  // namespace
 
-ReactionRun::ReactionRun(const StagedRun& motion) : motion_(&motion) {
+ReactionRun::ReactionRun(const StagedRun& motion) : motion_(&motion), each_(reactions_along(*motion.simulation(), motion.trajectory())) {
   const Chain& chain = motion.chain();
-  for (const std::vector<Reaction>& instant : reactions_along(*motion.simulation(), motion.trajectory())) at_.push_back(joined_at_frames(instant));
+  for (const std::vector<Reaction>& instant : each_) at_.push_back(joined_at_frames(instant));
   if (rounding_of(chain, at_)) at_.clear();
   double largest = 0;
   for (const std::vector<Reaction>& instant : at_)
@@ -77,23 +78,30 @@ ReactionRun::ReactionRun(const StagedRun& motion) : motion_(&motion) {
       place.is_vector &= std::abs(size - sums.length) <= close;
     }
   }
-  if (!at_.empty())
-    for (const Reaction& one : at_.front()) find_extremes(one.frame, one.rows);
+  if (at_.empty()) return;
+  for (const Reaction& one : each_.front()) places_.at(one.frame).of_single_rows &= one.rows.size() == 1;
+  for (const Reaction& one : at_.front()) find_extremes(one);
 }
 
-void ReactionRun::find_extremes(int frame, const std::vector<int>& rows) {
-  Place& place = places_[frame];
-  if (rows.empty() || !(place.is_sum || place.is_vector)) return;
+std::vector<double> ReactionRun::extremes_of(const std::vector<int>& rows, bool as_length) const {
   const auto along = [&](const Trajectory& run) {
     std::vector<double> numbers;
     for (int k = 0; k < run.size(); ++k) {
       const Sums sums = sums_of(rows, run.lambda_at(k));
-      numbers.push_back(rows.size() > 1 && place.is_vector ? sums.length : sums.sum);
+      numbers.push_back(as_length ? sums.length : sums.sum);
     }
     return numbers;
   };
   const Trajectory &run = motion_->trajectory(), &curve = motion_->curve_run();
-  place.extremes = extremes_near(along(run), run.t, along(curve), curve.t);
+  return extremes_near(along(run), run.t, along(curve), curve.t);
+}
+
+void ReactionRun::find_extremes(const Reaction& one) {
+  Place& place = places_.at(one.frame);
+  if (one.rows.empty() || !(place.is_sum || place.is_vector)) return;
+  place.extremes = extremes_of(one.rows, one.rows.size() > 1 && place.is_vector);
+  if (!place.has_shares(one)) return;
+  for (const int row : one.rows) place.share_extremes[row] = extremes_of({row}, false);
 }
 
 WorldVector ReactionRun::vector_of(const Reaction& one, const Workspace& ws, int k) const {
@@ -114,10 +122,33 @@ WorldVector ReactionRun::vector_of(const Reaction& one, const Workspace& ws, int
   return vector;
 }
 
+// Side by side, in the order of the rows: the first farthest to the left of the way that all would press if their multipliers were positive.
+void ReactionRun::add_shares(const Reaction& one, const Workspace& ws, int k, std::vector<WorldVector>& vectors) const {
+  const Trajectory& run = motion_->trajectory();
+  const Place& place = places_.at(one.frame);
+  double lane = 0.5 * double(one.rows.size() - 1) * kBetweenShares;
+  for (const Reaction& share : each_[std::size_t(k)]) {
+    if (share.frame != one.frame) continue;
+    const int row = share.rows.front();
+    const double lambda = run.lambda_at(k)[std::size_t(row)];
+    const std::string name = multipliers({row}, run.rows, "");
+    WorldVector vector{VectorKind::constraint, frame_position(motion_->chain(), ws, one.frame), share.force, Vector3d::Zero(), Vector3d::Zero(), "-" + name};
+    // The left of an arrow changes sides where it turns round.
+    vector.lane = lambda > 0 ? -lane : lane;
+    vector.amount = Amount{name, lambda};
+    vector.extreme = place.share_extremes.at(row)[std::size_t(k)];
+    vectors.push_back(std::move(vector));
+    lane -= kBetweenShares;
+  }
+}
+
 std::vector<WorldVector> ReactionRun::vectors_at(const Workspace& ws, int k) const {
   std::vector<WorldVector> vectors;
   if (at_.empty()) return vectors;
-  for (const Reaction& one : at_[std::size_t(k)]) vectors.push_back(vector_of(one, ws, k));
+  for (const Reaction& one : at_[std::size_t(k)]) {
+    if (places_.at(one.frame).has_shares(one)) add_shares(one, ws, k, vectors);
+    else vectors.push_back(vector_of(one, ws, k));
+  }
   return vectors;
 }
 

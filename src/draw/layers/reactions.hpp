@@ -11,7 +11,8 @@
 
 namespace chainreel {
 
-// The reactions of a run at its samples; what acts at one place is one force.
+// The reactions of a run at its samples; what acts at one place is one force, but where constraints of a row each act along one
+// direction all along: there each is a share of its own, beside the others, so that it is seen who bears what.
 class ReactionRun {
  public:
   explicit ReactionRun(const StagedRun& motion);
@@ -25,13 +26,20 @@ class ReactionRun {
     bool is_pushed = true;  // one row alone pushes it towards its link
     bool is_sum = true;     // of multipliers, all along one direction: two equal lines
     bool is_vector = true;  // whose components they are: a pin
+    bool of_single_rows = true;  // each of the constraints that hold it has one
     std::vector<double> extremes{};  // at each sample, of their sum or of the vector's length
+    std::map<int, std::vector<double>> share_extremes{};  // of each row
+
+    bool has_shares(const Reaction& one) const { return one.rows.size() > 1 && is_sum && of_single_rows; }
   };
-  void find_extremes(int frame, const std::vector<int>& rows);
+  std::vector<double> extremes_of(const std::vector<int>& rows, bool as_length) const;
+  void find_extremes(const Reaction& one);
   WorldVector vector_of(const Reaction& one, const Workspace& ws, int k) const;
+  void add_shares(const Reaction& one, const Workspace& ws, int k, std::vector<WorldVector>& vectors) const;
 
   const StagedRun* motion_;
-  std::vector<std::vector<Reaction>> at_;
+  std::vector<std::vector<Reaction>> each_;  // of the constraints, one by one
+  std::vector<std::vector<Reaction>> at_;    // of the places
   std::map<int, Place> places_;
 };
 

@@ -20,6 +20,7 @@ constexpr double kVectorLabelGap = 0.010;  // between an arrow's tip or an arc a
 constexpr double kFarLabelGap = 0.035;      // ... where there is no room nearer
 constexpr double kShareBelowFull = 0.95;  // of a clip's magnitudes
 constexpr double kRoundOffBelow = 1e-6;   // of the largest
+constexpr double kOfMiddle = 3;           // of the size of most of the time, whose arrow is then a third of the longest: sizes of a third of that have one, too
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
 constexpr double kAboutPeak[] = {0.04, 0.08, 0.13, 0.19}, kLeastUntied = 0.1;  // units of H: where numbers of cut arrows stand about their places, and how short arrows then need a line
@@ -91,6 +92,13 @@ bool is_beside_turn(Point direction, Point u, Point w, double turn) {
   return std::abs(std::atan2(along(w), along(u))) <= std::max(turn / 2 + kBesideTurn * std::numbers::pi / 180, std::numbers::pi / 2 + kRoundOffBelow);
 }
 
+// Of arrows side by side each has its name on its own side of their middle, which goes through `middle`.
+void close_beyond_middle(MarkWord& word, Point middle, Point own_side) {
+  word.closed.resize(word.places.size());
+  for (std::size_t i = 0; i < word.places.size(); ++i)
+    if (dot(center_of(word.places[i]) - middle, own_side) <= 0) word.closed[i] = true;
+}
+
 // The same word of the same mark from frame to frame.
 std::string word_name(const WorldVector& vector) {
   return std::to_string(int(vector.kind)) + " " + vector.label;
@@ -102,7 +110,10 @@ void VectorMagnitudes::add(const WorldVector& vector, double weight) {
   magnitudes_[std::size_t(vector.kind)].push_back({vector.value.norm(), weight});
 }
 
-double full_magnitude(std::vector<Magnitude> magnitudes) {
+namespace {
+
+// Of those that are more than round-off beside the largest what `share` of the time are at most.
+double magnitude_below(std::vector<Magnitude> magnitudes, double share) {
   std::erase_if(magnitudes, [](const Magnitude& one) { return !(one.size > 0) || !std::isfinite(one.size); });
   if (magnitudes.empty()) return 0;
   std::ranges::sort(magnitudes, {}, &Magnitude::size);
@@ -113,8 +124,19 @@ double full_magnitude(std::vector<Magnitude> magnitudes) {
   double all = 0, up_to = 0;
   for (const Magnitude& one : magnitudes) all += weight_of(one);
   for (const Magnitude& one : magnitudes)
-    if ((up_to += weight_of(one)) >= kShareBelowFull * all * (1 - kRoundOffBelow)) return one.size;
+    if ((up_to += weight_of(one)) >= share * all * (1 - kRoundOffBelow)) return one.size;
   return magnitudes.back().size;
+}
+
+}  // namespace
+
+double full_magnitude(std::vector<Magnitude> magnitudes) {
+  return magnitude_below(std::move(magnitudes), kShareBelowFull);
+}
+
+double without_needles(double full, std::vector<Magnitude> largest) {
+  const double middle = magnitude_below(std::move(largest), 0.5);
+  return middle > 0 && middle * size::kLongestArrow < kLeastLabelled * full ? kOfMiddle * middle : full;
 }
 
 std::array<double, kVectorKinds.size()> VectorMagnitudes::full() const {
@@ -252,7 +274,7 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
     arrow.shift = (marks * size::kBesideRail) * side;
   }
   if (vector.pushes && length > 0) arrow.shift = -(1 + marks * size::kBeforePushed / length) * arrow.v;
-  if (vector.aside != 0) arrow.shift = arrow.shift + vector.aside * normal_to(unit(arrow.v));
+  if (const double left = vector.aside + marks * vector.lane; left != 0 && length > 0) arrow.shift = arrow.shift + left * normal_to(unit(arrow.v));
   return arrow;
 }
 
@@ -388,6 +410,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
     for (const double off : kAboutPeak)
       for (const Rect& about : places_about(text, tail, off, {0, 1})) word.places.push_back(about);
   }
+  if (vector.lane != 0) close_beyond_middle(word, place, vector.lane * normal_to(unit(arrow.v)));
   labels.add(std::move(word));
 }
 

@@ -52,6 +52,7 @@ struct WorldVector {
   bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
   std::optional<Amount> amount{};
   std::optional<double> extreme{};  // its number where that is largest between the frames beside this one
+  double lane = 0;      // units of H at usual marks, to the left of its own way: beside others that act at its place along its line
   double aside = 0;     // units of H, to the left of its own way: it stands beside what it would hide, and a line ties it to its place
 };
 
@@ -85,6 +86,9 @@ struct Magnitude {
 // What 95 % of the motion's time are at most, of those that are more than round-off beside the largest; 0 where there is none: the
 // full one. Where all weights are zero, as of a picture by itself, they count alike.
 double full_magnitude(std::vector<Magnitude> magnitudes);
+// The same of forces that have needles, as ties have near singular poses: where what `full` makes of the sizes of most of the time are dots, three
+// times the middle one. What is larger is cut, and has its number.
+double without_needles(double full, std::vector<Magnitude> largest);
 
 // The magnitudes of a clip, of which its scales are made.
 class VectorMagnitudes {

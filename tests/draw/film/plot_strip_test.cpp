@@ -83,6 +83,51 @@ TEST(PlotStrip, RunsThatWentWildDoNotDecideOnTheAxis) {
   EXPECT_GT(alone.frame().y.high, 1e7);
 }
 
+// Few peaks far above the rest leave the plot, and their numbers stand there; what comes to stay, many peaks, and a constant with a pulse do not.
+TEST(PlotStrip, NeedlesLeaveThePlotWithTheirNumbers) {
+  const Fonts fonts;
+  const auto curve = [](auto value) {
+    std::vector<double> y;
+    for (int k = 0; k <= 1000; ++k) y.push_back(value(k));
+    return y;
+  };
+  const auto wave = [](int k) { return 5 * std::sin(0.02 * k); };
+  const auto near = [](int k, int at) { return std::exp(-std::pow((k - at) / 3.0, 2)); };
+  const auto needles = curve([&](int k) { return wave(k) - 260 * near(k, 300) - 170 * near(k, 700) + 8 * near(k, 500); });
+  const auto drawn = [&](const std::vector<double>& y, const Rect& area = kStripArea) {
+    StripRun run = run_of("a", false, y);
+    run.plots[0].title = "force [N]";
+    PlotStrip strip(strip_data({run}, 0, 1000, light_theme()), area, style_of(fonts));
+    Picture still, moving;
+    strip.draw_static(still);
+    strip.draw_frame(moving, 500);
+    const auto heads = [](const Picture& picture) { return test::all_of<Polygon>(picture, [](const Polygon& p) { return p.count == 3; }).size(); };
+    return std::tuple{strip.frame().y, test::words_of(still), heads(still), heads(moving)};
+  };
+  const auto [axis, words, all, so_far] = drawn(needles);
+  EXPECT_GT(axis.low, -30);
+  EXPECT_GT(axis.high, 7.9 - 5) << "a peak that is not much higher than the rest is in the plot";
+  EXPECT_NE(words.find("\u2212260 N"), std::string::npos) << words;
+  EXPECT_NE(words.find("\u2212170 N"), std::string::npos) << words;
+  EXPECT_EQ(all, 2u);
+  EXPECT_EQ(so_far, 1u) << "the other one is to come";
+  const auto dense = curve([&](int k) { return 5 * std::sin(0.5 * k) - 260 * near(k, 300); });
+  EXPECT_NE(std::get<1>(drawn(dense)).find("to \u2212260 N"), std::string::npos) << "no room beside";
+  const auto keeps_all = [&](auto value) {
+    const auto shown = drawn(curve(value));
+    EXPECT_EQ(std::get<2>(shown), 0u);
+    return std::get<0>(shown);
+  };
+  EXPECT_GT(keeps_all([&](int k) { return wave(k) + 260 * near(k, 1000); }).high, 250) << "it does not come back";
+  EXPECT_GT(keeps_all([&](int k) { return wave(k) + 15 * near(k, 300); }).high, 13.6) << "no five times as high";
+  EXPECT_GT(keeps_all([&](int k) { return 260 * near(k, 300); }).high, 250) << "all that happens";
+  EXPECT_GT(keeps_all([&](int k) {
+              double y = wave(k);
+              for (int at = 100; at < 1000; at += 100) y += 260 * std::exp(-std::pow((k - at) / 1.0, 2));
+              return y;
+            }).high, 250) << "nine of them are how it is";
+}
+
 // Where one leaves the plot it points on, and how far it gets is said.
 TEST(PlotStrip, RunsThatWentWildSayWhereTheyGo) {
   const Fonts fonts;

@@ -9,6 +9,7 @@
 
 #include "draw/chains.hpp"
 #include "draw/film/film.hpp"
+#include "draw/layers/vectors.hpp"
 #include "draw/shapes.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
@@ -405,7 +406,7 @@ TEST(TorqueLayer, WritesTheValueBesideAnArrowThatIsCut) {
   EXPECT_EQ(test::words_of(pictures.still(55)).find("="), std::string::npos);
 }
 
-// What the ties exert has the names of the plotted multipliers: a vector of those that act in several directions, a sum of those
+// What the ties exert has the names of the plotted multipliers: a vector of those that act in several directions, arrows side by side of those
 // that act in one.
 TEST(ConstraintForces, AreNamedLikeTheirCurves) {
   const Cause four_bar("four_bar", {"layout=scene", "draw=[+constraint_force]"}), pen("pen", {"layout=scene"});
@@ -417,16 +418,33 @@ TEST(ConstraintForces, AreNamedLikeTheirCurves) {
   EXPECT_NE(words.find("(\U0001D706"), std::string::npos) << words;
   EXPECT_EQ(words.find("+"), std::string::npos) << words;
   const Cause twice("redundant", {"layout=scene"}, 1);
-  bool is_sum = false, is_vector = false;
   const Film film = twice.film();
+  const std::string first = test::words_of(film.still(0));
+  for (const char* name : {"\u2212\U0001D7061", "\u2212\U0001D7062"}) EXPECT_NE(first.find(name), std::string::npos) << first;
   for (int k = 0; k < 60; ++k) {
     const std::string at_k = test::words_of(film.still(k));
-    is_sum |= at_k.find("+") != std::string::npos;
-    is_vector |= at_k.find(",") != std::string::npos;
+    EXPECT_EQ(at_k.find("+"), std::string::npos) << at_k;
+    EXPECT_EQ(at_k.find(","), std::string::npos) << at_k;
   }
-  EXPECT_TRUE(is_sum);
-  EXPECT_FALSE(is_vector);
+  // Their heads stand side by side.
+  std::vector<Point> heads;
+  for (const Polygon& head : test::all_of<Polygon>(film.still(0), [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().constraint && p.corners[0].y > 0.12; }))
+    heads.push_back(head.corners[0]);
+  ASSERT_EQ(heads.size(), 2u);
+  EXPECT_NEAR(test::distance(heads[0], heads[1]), 0.02, 1e-6) << "page units, of the lanes; equal lengths";
   EXPECT_GT(dashes(pen.film().still(40)), 0u);
+}
+
+// Near singular poses ties have needles: what they exert most of the time has an arrow for all that, and needles have numbers.
+TEST(ConstraintForces, HaveAScaleThatNeedlesDoNotDecideOn) {
+  const auto sizes = [](double usual, double peak, int peaks) {
+    std::vector<Magnitude> all(100, {usual, 1});
+    for (int k = 0; k < peaks; ++k) all[std::size_t(k)].size = peak;
+    return all;
+  };
+  EXPECT_DOUBLE_EQ(without_needles(100, sizes(2, 100, 8)), 6);
+  EXPECT_DOUBLE_EQ(without_needles(10, sizes(2, 10, 8)), 10) << "a fifth of it is seen";
+  EXPECT_DOUBLE_EQ(without_needles(100, sizes(0, 100, 8)), 100) << "nothing acts else";
 }
 
 // A force that pushes its link comes from outside; where it is drawn from its place on, it lies on the link.

@@ -1,0 +1,202 @@
+#include "draw/film/needles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/format.hpp"
+#include "picture/point.hpp"
+
+namespace chainreel {
+namespace {
+
+constexpr double kMostOfTime = 0.95;
+constexpr double kRestOfWhole = 0.2;    // five times as high the rest can be read
+constexpr double kLeastRest = 1e-3;     // of the whole: less is a constant, and its peaks are all that happens
+constexpr double kHeldBeyond = 1;       // of the rest's range: a peak that is as high as twice that is part of it
+constexpr std::size_t kFewNeedles = 6;  // of a curve: more are how it is
+constexpr double kHeadLong = 0.018, kHeadWide = 0.016;  // units of H
+constexpr double kBesideNeedle = 0.006, kAboveEdge = 0.007, kAirOfNumber = 0.003;
+constexpr int kMostRows = 4;            // of numbers above one another
+constexpr double kRowOfNumbers = 1.3;   // of the em
+constexpr double kSamePlace = 0.004;    // units of H: heads nearer than that are one
+
+// The least interval that holds a curve for so much of its time; a point stands for half of the way to its neighbours.
+ValueRange most_of(const std::vector<Point>& points) {
+  struct Part {
+    double y, time;
+  };
+  std::vector<Part> parts;
+  double all = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!std::isfinite(points[k].y)) continue;
+    parts.push_back({points[k].y, (points[std::min(k + 1, points.size() - 1)].x - points[k > 0 ? k - 1 : 0].x) / 2});
+    all += parts.back().time;
+  }
+  if (parts.empty()) return {HUGE_VAL, -HUGE_VAL};
+  std::ranges::sort(parts, {}, &Part::y);
+  ValueRange best{parts.front().y, parts.back().y};
+  double held = 0;
+  for (std::size_t from = 0, to = 0; from < parts.size(); held -= parts[from++].time) {
+    while (to < parts.size() && held < kMostOfTime * all) held += parts[to++].time;
+    if (held < kMostOfTime * all) break;
+    if (parts[to - 1].y - parts[from].y < best.span()) best = {parts[from].y, parts[to - 1].y};
+  }
+  return best;
+}
+
+// Stretches [begin, end) of a curve above or below a range, with their farthest points.
+struct Excursion {
+  std::size_t begin, end, farthest;
+  bool is_up;
+};
+std::vector<Excursion> excursions_of(const std::vector<Point>& points, const ValueRange& range) {
+  std::vector<Excursion> found;
+  const auto side = [&](std::size_t k) { return points[k].y > range.high ? 1 : points[k].y < range.low ? -1 : 0; };
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!std::isfinite(points[k].y) || side(k) == 0) continue;
+    Excursion one{k, k, k, side(k) > 0};
+    for (; one.end < points.size() && std::isfinite(points[one.end].y) && side(one.end) == side(k); ++one.end)
+      if (std::abs(points[one.end].y - points[one.farthest].y) > 0 && (points[one.end].y > points[one.farthest].y) == one.is_up) one.farthest = one.end;
+    k = one.end - 1;
+    found.push_back(one);
+  }
+  return found;
+}
+
+bool decides_whole(const StripCurve& curve) {
+  return curve.decides && !std::isfinite(curve.shown_low) && !std::isfinite(curve.shown_high);
+}
+
+// Whether a curve comes from the range and returns to it.
+bool returns(const Excursion& one, const std::vector<Point>& points) {
+  return one.begin > 0 && one.end < points.size() && std::isfinite(points[one.begin - 1].y) && std::isfinite(points[one.end].y);
+}
+
+}  // namespace
+
+std::optional<ValueRange> range_without_needles(const StripData& data, ValueRange whole) {
+  if (data.angles || !std::ranges::all_of(data.curves, [](const StripCurve& curve) { return !curve.decides || decides_whole(curve); })) return std::nullopt;
+  ValueRange most{HUGE_VAL, -HUGE_VAL};
+  for (const StripCurve& curve : data.curves) {
+    if (!curve.decides) continue;
+    const ValueRange own = most_of(curve.points);
+    most = {std::min(most.low, own.low), std::max(most.high, own.high)};
+  }
+  if (!(most.span() >= kLeastRest * whole.span()) || !(most.span() < kRestOfWhole * whole.span())) return std::nullopt;
+  ValueRange held = most;
+  for (const StripCurve& curve : data.curves) {
+    if (!curve.decides) continue;
+    std::size_t needles = 0;
+    for (const Excursion& one : excursions_of(curve.points, most)) {
+      const double y = curve.points[one.farthest].y, beyond = one.is_up ? y - most.high : most.low - y;
+      if (returns(one, curve.points) && beyond > kHeldBeyond * most.span()) ++needles;
+      else held = {std::min(held.low, y), std::max(held.high, y)};
+    }
+    if (needles > kFewNeedles) return std::nullopt;
+  }
+  return held.span() < kRestOfWhole * whole.span() ? std::optional(held) : std::nullopt;
+}
+
+std::vector<Needle> needles_of(const std::vector<StripCurve>& curves, const Axis& y) {
+  std::vector<Needle> needles;
+  if (y.scale == Scale::log) return needles;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (!decides_whole(curves[c]) || curves[c].covers) continue;
+    for (const Excursion& one : excursions_of(curves[c].points, {y.low, y.high}))
+      needles.push_back({curves[c].points[one.farthest], c, one.is_up});
+  }
+  return needles;
+}
+
+namespace {
+
+double edge_of(const PlotFrame& frame, const Needle& needle) {
+  return needle.is_up ? frame.box.y1 : frame.box.y0;
+}
+
+bool crosses(const PlotFrame& frame, const std::vector<StripCurve>& curves, const Rect& box) {
+  for (const StripCurve& curve : curves)
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
+      if (!frame.can_show(curve.points[k]) || !frame.can_show(curve.points[k + 1])) continue;
+      Point a = frame.at(curve.points[k]), b = frame.at(curve.points[k + 1]);
+      if (cut_segment(box, a, b)) return true;
+    }
+  return false;
+}
+
+// How far a box is from the nearest other needle's head.
+double clearance(const PlotFrame& frame, const std::vector<Needle>& needles, const Needle& own, const Rect& box) {
+  double least = HUGE_VAL;
+  for (const Needle& other : needles)
+    if (const double x = frame.at_x(other.peak.x); std::abs(x - frame.at_x(own.peak.x)) > kSamePlace && other.is_up == own.is_up)
+      least = std::min(least, std::max({box.x0 - x, x - box.x1, 0.0}));
+  return least;
+}
+
+// Beside its head, on the side where no other head is as near, or farther in.
+std::optional<Rect> place_of_number(const PlotFrame& frame, const std::vector<StripCurve>& curves, const std::vector<Needle>& needles, const Needle& needle,
+                                    const TextLine& number, double em, const std::vector<Rect>& taken) {
+  const double x = frame.at_x(needle.peak.x), inward = needle.is_up ? -1 : 1;
+  const double high = number.box.height(), wide = number.advance;
+  for (int row = 0; row < kMostRows; ++row)
+    for (const double beside : {kHeadWide / 2 + kBesideNeedle, kHeadWide / 2 + 3 * kBesideNeedle}) {
+      std::optional<Rect> best;
+      for (const double way : {1.0, -1.0}) {
+        const double x0 = way > 0 ? x + beside : x - beside - wide;
+        const double middle = edge_of(frame, needle) + inward * (kAboveEdge + high / 2 + row * kRowOfNumbers * em);
+        const Rect box{x0, middle - high / 2, x0 + wide, middle + high / 2}, with_air = widened(box, kAirOfNumber);
+        if (!is_within(with_air, frame.box) || crosses(frame, curves, with_air)) continue;
+        if (std::ranges::any_of(taken, [&](const Rect& one) { return overlap(one, with_air); })) continue;
+        if (!best || clearance(frame, needles, needle, box) > clearance(frame, needles, needle, *best)) best = box;
+      }
+      if (best) return best;
+    }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void draw_needle_heads(Picture& picture, const PlotFrame& frame, const std::vector<Needle>& needles, const std::vector<StripCurve>& curves, double t, double opacity) {
+  for (const Needle& needle : needles) {
+    if (needle.peak.x > t) continue;
+    const Point tip{frame.at_x(needle.peak.x), edge_of(frame, needle)};
+    const double back = needle.is_up ? -kHeadLong : kHeadLong;
+    picture.add(Polygon{{tip, tip + Point{kHeadWide / 2, back}, tip + Point{-kHeadWide / 2, back}}, 3, {curves[needle.curve].style.color.faded(opacity), {}, 0}});
+  }
+}
+
+std::string number_of(const Needle& needle, const std::string& unit) {
+  return (needle.peak.y < 0 ? "\u2212" : "") + format_significant(std::abs(needle.peak.y), 2) + unit;
+}
+
+bool draw_needle_numbers(Picture& picture, const PlotFrame& frame, const std::vector<Needle>& needles, const std::vector<StripCurve>& curves, const std::string& unit,
+                         const PlotStyle& style) {
+  std::vector<Needle> farthest_first = needles;
+  std::ranges::stable_sort(farthest_first, std::greater(), [](const Needle& one) { return std::abs(one.peak.y); });
+  struct Said {
+    double x;
+    std::string number;
+  };
+  std::vector<Said> said;
+  std::vector<Rect> taken;
+  // No number lies on another one's head.
+  for (const Needle& needle : needles) {
+    const double x = frame.at_x(needle.peak.x), y = edge_of(frame, needle);
+    taken.push_back({x - kHeadWide / 2, y - kHeadLong, x + kHeadWide / 2, y + kHeadLong});
+  }
+  const double em = style.text(size::kTick);
+  for (const Needle& needle : farthest_first) {
+    const double x = frame.at_x(needle.peak.x);
+    const std::string number = number_of(needle, unit);
+    if (std::ranges::any_of(said, [&](const Said& one) { return std::abs(one.x - x) < kSamePlace && one.number == number; })) continue;
+    const TextLine line = lay_out_text(*style.fonts, number, {Face::label, em, style.theme->muted, Align::left});
+    const std::optional<Rect> place = place_of_number(frame, curves, needles, needle, line, em, taken);
+    if (!place) continue;
+    said.push_back({x, number});
+    taken.push_back(*place);
+    draw_text(picture, line, {place->x0, place->y0 - line.box.y0});
+  }
+  return needles.empty() || (!said.empty() && said.front().number == number_of(farthest_first.front(), unit));
+}
+
+}  // namespace chainreel
