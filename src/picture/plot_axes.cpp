@@ -16,7 +16,7 @@ constexpr double kSuperscriptScale = 0.70, kSuperscriptUp = 0.38;  // of the em,
 constexpr double kPitchX = 1.7;  // of the widest label: distance of labels along x
 constexpr double kPitchY = 3.0, kLeastPitchY = 1.3;  // of the em, along y
 constexpr double kLeastAcross = 0.85;  // of the em: numbers that are nearer along y lie on one another
-constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6;
+constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6, kMostThinned = 9;
 constexpr std::size_t kFewestOfScale = 2;
 constexpr double kLeastAir = 0.3;  // of the em, between two numbers below a frame
 constexpr double kLastAir = 0.6;  // of the em, before the last number with its unit
@@ -178,10 +178,33 @@ std::vector<Tick> one_number(const Axis& axis) {
   return ticks;
 }
 
+// Three numbers at finer round values, with ticks alone between them, where these stand `pitch` apart; else `ticks`.
+std::vector<Tick> three_numbers(std::vector<Tick> ticks, const Axis& axis, double length, double pitch) {
+  const auto numbers = std::ranges::count_if(ticks, [](const Tick& tick) { return !tick.label.empty(); });
+  if (axis.scale != Scale::linear || numbers >= kFewestLabels) return ticks;
+  for (int most = kMostLinear; most <= kMostThinned; ++most) {
+    std::vector<Tick> finer = ticks_of(axis, most);
+    const long count = long(finer.size());
+    for (long stride = 1; (kFewestLabels - 1) * stride < count; ++stride) {
+      if (double(stride) * (finer[1].value - finer[0].value) / (axis.high - axis.low) * length < pitch) continue;
+      // Zero has its number; else they stand in the middle.
+      long first = ((count - 1) % stride) / 2;
+      for (long i = 0; i < count; ++i)
+        if (finer[std::size_t(i)].value == 0) first = i % stride;
+      if ((count - 1 - first) / stride + 1 < kFewestLabels) continue;
+      for (long i = 0; i < count; ++i)
+        if ((i - first) % stride != 0) finer[std::size_t(i)].label = finer[std::size_t(i)].superscript = "";
+      return finer;
+    }
+  }
+  return ticks;
+}
+
 std::vector<Tick> y_ticks(const Axis& axis, double height, const PlotStyle& style) {
   const double em = style.text(size::kTick);
   if (!axis.at.empty()) return given_ticks(axis, height, kLeastPitchY * em);
   std::vector<Tick> ticks = enough_ticks(axis, most_labels(axis, height, kPitchY * em, kLeastPitchY * em), height, kLeastPitchY * em);
+  ticks = three_numbers(std::move(ticks), axis, height, kLeastPitchY * em);
   if (axis.scale == Scale::log || stand_apart(ticks, axis, height, kLeastAcross * em)) return ticks;
   ticks = with_ends_alone(ticks_of(axis, kFewestLabels));
   return stand_apart(ticks, axis, height, kLeastAcross * em) && ticks.size() > 1 ? ticks : one_number(axis);

@@ -33,6 +33,7 @@ enum class LayerNeeds {
       "of feedback (pd, computed_torque): the pose that it follows in outline; coils from there show PD")   \
   ROW(ghosts, "ghosts", 0, nothing,                                                                         \
       "the chain at six earlier instants of the last second, fainter with age, the older half as outlines") \
+  ROW(change_point, "", 0, nothing, "")                                                                     \
   ROW(shadow, "shadow", 13, nothing,                                                                        \
       "seen obliquely: the soft shadow of a light from above, darker where a body touches the ground")      \
   ROW(chain_rails, "chain", 0, nothing, "")                                                                 \

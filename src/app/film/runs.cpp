@@ -10,6 +10,7 @@
 #include "core/format.hpp"
 #include "scene/run/title.hpp"
 #include "scene/slow_motion.hpp"
+#include "sim/rank_loss.hpp"
 
 namespace chainreel {
 namespace {
@@ -185,12 +186,24 @@ void Runs::run_references() const {
   }
 }
 
+void Runs::find_change_points() const {
+  if (!change_points_.empty()) return;
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    change_points_.emplace_back();
+    // Of a recorded motion nothing is stepped anew.
+    if (film_.panels[i].simulation.motion || !is_complete(list_[i].status)) continue;
+    for (const RankLoss& loss : rank_losses_of(film_.panels[i].simulation, list_[i])) change_points_.back().push_back(loss.t);
+    throw_if_interrupted();
+  }
+}
+
 std::vector<PanelRun> Runs::panels() const {
   run_references();
+  find_change_points();
   std::vector<PanelRun> panels;
   for (std::size_t i = 0; i < list_.size(); ++i)
     panels.push_back({film_.panels[i].scene, film_.panels[i].simulation.chain, list_[i],
-                      &film_.panels[i].simulation, film_.panels[i].shapes.get(), promised_until(film_.panels[i]), references_});
+                      &film_.panels[i].simulation, film_.panels[i].shapes.get(), promised_until(film_.panels[i]), references_, change_points_[i]});
   return panels;
 }
 

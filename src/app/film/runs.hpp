@@ -55,6 +55,7 @@ class Runs {
  private:
   std::vector<PanelRun> panels() const;
   void run_references() const;
+  void find_change_points() const;
 
   const PreparedFilm& film_;
   FilmClock clock_;
@@ -62,6 +63,7 @@ class Runs {
   std::vector<double> times_;
   std::vector<Trajectory> list_;
   mutable std::vector<Trajectory> references_;  // of the film, as soon as a picture is asked for
+  mutable std::vector<std::vector<double>> change_points_;  // of each panel, s; likewise
 };
 
 // The events of each panel.

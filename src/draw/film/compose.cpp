@@ -20,6 +20,7 @@ constexpr double kHighestPlots = 0.34;
 constexpr double kNarrowMotion = 0.5;  // of its height, or of the page's width
 constexpr double kNarrowestPlots = 0.3;  // of the page's width, beside panels
 constexpr double kTitleAir = 1.1;      // times the least width of a panel's title
+constexpr double kFlatMotion = 0.7;      // of the scene's height
 constexpr double kWorthwhile = 0.02;   // ... of the width
 constexpr double kLeastOfWidth = 0.6;  // pages still narrower keep the words of this one
 
@@ -106,11 +107,30 @@ std::optional<Composition> with_plots_beside_panels(const Scene& page, const Sho
   return std::nullopt;
 }
 
-// Plots beside a narrow motion have the width that it leaves; those below a flat one, on pages that are narrow, of its height.
-Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story) {
+// A plot beside a flat motion, which fills the width and leaves its height, is as narrow as can be where the motion is larger for it.
+std::optional<Composition> with_narrow_plots(const Scene& page, const Shown& film, const Story& story, const Composition& usual) {
+  const Rect& scene = usual.sheet.sheet.scene;
+  const Point used = usual.view.size_used();
+  if (!usual.sheet.has_plots_beside || used.x < scene.width() - kKeptBeside || used.y > kFlatMotion * scene.height()) return std::nullopt;
+  PlotRoom room;
+  room.beside = kNarrowestPlots;
+  try {
+    Composition narrow = with_readable_words(page, film, story, room);
+    if (narrow.left_out.size() <= usual.left_out.size() && narrow.view.camera.scale > usual.view.camera.scale && lack_of_room(narrow).what.empty()) return narrow;
+  } catch (const Error& error) {
+    if (!tells_of_no_room(error)) throw;
+  }
+  return std::nullopt;
+}
+
+// Plots beside a narrow motion have the width that it leaves; those below a flat one, on pages that are narrow, of its height. `is_ours`: nobody
+// asked for them to stand there.
+Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story, bool is_ours = false) {
   Composition usual = with_readable_words(page, film, story);
   if (page.camera.fit) return usual;
   if (std::optional<Composition> beside = with_plots_beside_panels(page, film, story, usual)) return std::move(*beside);
+  if (is_ours)
+    if (std::optional<Composition> narrow = with_narrow_plots(page, film, story, usual)) return std::move(*narrow);
   const Rect& scene = usual.sheet.sheet.scene;
   PlotRoom room;
   if (usual.sheet.has_plots_beside) {
@@ -131,6 +151,7 @@ Composition with_wide_plots(const Scene& page, const Shown& film, const Story& s
 struct Layout {
   Scene page;
   Story story;
+  bool is_ours = false;  // where the plot stands
 };
 
 // Whether what happens can be told by its name below each scene, as small as can be read: beside a plot the row is narrower.
@@ -164,12 +185,13 @@ Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
     Scene with_plot = page;
     with_plot.layout = layout;
     try {
-      Composition told = with_wide_plots(with_plot, film, story);
-      if (told.left_out != plain.left_out || !(told.view.camera.scale >= kept * plain.view.camera.scale)) continue;
+      Composition told = with_wide_plots(with_plot, film, story, true);
+      // Words go in one order: fewer of them are some of those that go else.
+      if (told.left_out.size() > plain.left_out.size() || !(told.view.camera.scale >= kept * plain.view.camera.scale)) continue;
       if (page.video.least_text > 0 && page.plot.empty() && !lack_of_room(told).what.empty()) continue;
       if (page.plot.empty() && !notes_have_room(told)) continue;
       plain = std::move(told);
-      return {with_plot, story};
+      return {with_plot, story, true};
     } catch (const Error& error) {
       if (!tells_of_no_room(error)) throw;
     }
@@ -188,7 +210,7 @@ Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const 
   if (std::all_of(shares.begin(), shares.end(), [](const auto& one) { return one.second == 1; })) return composition;
   // The scale that is printed is that of the arrows as they are drawn.
   film.arrows = shares;
-  return with_wide_plots(layout.page, film, layout.story);
+  return with_wide_plots(layout.page, film, layout.story, layout.is_ours);
 }
 
 }  // namespace chainreel

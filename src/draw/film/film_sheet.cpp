@@ -91,6 +91,7 @@ StripRun strip_run(const Scene& page, const StagedRun& motion, const std::vector
   const Trajectory& run = motion.curve_run();
   StripRun strip{motion.title(), motion.is_wild(), {}, story};
   strip.accurate_until = motion.accurate_until();
+  strip.change_points = motion.change_points();
   if (const Simulation* simulation = motion.simulation()) {
     // Of higher order curves bend as the motion does, and steps are not seen.
     if (simulation->method && simulation->method->order == 1 && simulation->step >= kSeenStep * run.t.back()) {

@@ -246,6 +246,8 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
 void PlotStrip::draw_static(Picture& picture) const {
   if (data_.accurate_until < frame_.x.high) draw_zone(picture, frame_, {data_.accurate_until, frame_.y.low}, {frame_.x.high, frame_.y.high}, style_.theme->grid);
   draw_axes(picture, frame_, style_);
+  for (const double t : data_.change_points)
+    draw_guide(picture, frame_, {t, frame_.y.low}, {t, frame_.y.high}, {style_.theme->muted, style_.theme->lines * kBoundLine, Dash::dashed, Marker::none});
   draw_needle_heads(picture, frame_, needles_, data_.curves, HUGE_VAL, kPale);
   const std::string unit = unit_in(data_.title);
   std::string note = data_.note;
@@ -328,6 +330,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     const PlotCurves& plot = run.plots[i];
     data.title = title_with_symbol(plot);
     add_doubts(run, i, data);
+    data.change_points.insert(data.change_points.end(), run.change_points.begin(), run.change_points.end());
     data.angles = plot.angles;
     data.has_poles = plot.quantity == PlotQuantity::effective_mass;
     // A comparison shows the sum of energies alone.

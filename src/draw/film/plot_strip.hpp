@@ -33,6 +33,7 @@ struct StripData {
   std::string constancy{};  // "constant to 0.002 J", behind the title where that has room; "": it changes
   double end = 0;        // of the clip, s
   double accurate_until = HUGE_VAL;  // s: what is plotted behind it nobody promises
+  std::vector<double> change_points{};  // s: of constraints that lose rank, each a dashed line across the frame
   std::string note{};                // above the frame, at its right end, where it has room
 };
 
@@ -76,6 +77,7 @@ struct StripRun {
   double step = 0;  // s, of a run whose steps are seen one by one
   std::vector<double> breaks{};  // s, rising: of its torques, at which steps end, too
   double accurate_until = HUGE_VAL;  // s
+  std::vector<double> change_points{};  // s
   double energy_off = 0;             // J: what a run makes or loses of it that no one should take for motion
 };
 

@@ -77,7 +77,7 @@ Axis value_axis(const StripData& data) {
   const double air = kRangeAir * (high - low);
   Axis axis{data.angles ? Scale::angle : Scale::linear, low - air, high + air, data.title, {}};
   // Of a constant its number is what is to be read.
-  if (is_constant && size > 0 && !data.angles) axis.at = constant > 0 ? std::vector<double>{0, constant} : std::vector<double>{constant, 0};
+  if (is_constant && size > 0 && !data.angles) axis.at = {std::min(0.0, constant), constant / 2, std::max(0.0, constant)};
   return axis;
 }
 

@@ -5,6 +5,8 @@
 
 #include "draw/layers/layer.hpp"
 #include "draw/robot/joints.hpp"
+#include "dynamics/kinematics.hpp"
+#include "picture/point.hpp"
 
 namespace chainreel {
 namespace {
@@ -101,7 +103,56 @@ class GhostsLayer : public Layer {
   bool shows_chain_;
 };
 
+// The pose in which a run's constraints first depend on each other, behind the chain: a picture of another instant shows what its film is about. It
+// fades where the chain itself comes there.
+class ChangePointLayer : public Layer {
+ public:
+  explicit ChangePointLayer(const Stage&) {}
+
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
+
+  void draw(Picture& picture, const Shot& shot) const override {
+    const Panel& panel = shot.panel;
+    const StagedRun& motion = panel.motion();
+    if (motion.change_points().empty()) return;
+    const std::vector<Point> now = joints_on_page(panel, shot.ws);
+    const Workspace& then = motion.curve_pose_at(nearest_sample(motion.curve_run().t, motion.change_points().front()));
+    const std::vector<Point> there = joints_on_page(panel, then);
+    double apart = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) apart = std::max(apart, norm(there[i] - now[i]));
+    ChainLook look = panel.look();
+    look.strength = kStrongestGhost * std::clamp((apart - kSamePose) / (kOtherPose - kSamePose), 0.0, 1.0);
+    if (look.strength > 0) {
+      const ChainDrawing drawing = panel.drawing(look);
+      draw_rails(picture, drawing, then, panel.clip());
+      draw_links(picture, drawing, then, panel.clip());
+    }
+    motion.pose_at(shot.k);  // as it stands for what lies above
+  }
+
+ private:
+  static constexpr double kSamePose = 0.02, kOtherPose = 0.08;  // units of H, of the joint that is farthest from its place there: half of a link's width, twice a link's
+
+  static std::vector<Point> joints_on_page(const Panel& panel, const Workspace& ws) {
+    std::vector<Point> places;
+    for (std::size_t b = 1; b < panel.chain().bodies.size(); ++b) places.push_back(panel.camera().project(pose_of(ws, int(b)).translation()));
+    for (std::size_t f = 0; f < panel.chain().frames.size(); ++f) places.push_back(panel.camera().project(frame_position(panel.chain(), ws, int(f))));
+    return places;
+  }
+
+  static int nearest_sample(const std::vector<double>& times, double t) {
+    const auto next = std::lower_bound(times.begin(), times.end(), t);
+    if (next == times.begin()) return 0;
+    if (next == times.end()) return int(times.size()) - 1;
+    return int(next - times.begin()) - (t - next[-1] < *next - t ? 1 : 0);
+  }
+};
+
 }  // namespace
+
+std::unique_ptr<const Layer> make_layer_change_point(const Stage& stage) {
+  return std::make_unique<ChangePointLayer>(stage);
+}
 
 std::unique_ptr<const Layer> make_layer_trail(const Stage& stage) {
   return std::make_unique<TrailLayer>(stage);

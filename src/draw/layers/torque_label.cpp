@@ -11,6 +11,7 @@
 namespace chainreel {
 namespace {
 
+constexpr std::size_t kZerosTold = 1;        // beside one torque
 constexpr std::size_t kMostResistances = 4;  // joints whose damping is told one by one
 
 std::string unit_of(const Chain& chain) {
@@ -271,7 +272,8 @@ std::vector<std::string> torque_notations(const Chain& chain, const std::vector<
   if (entries.size() == 1 && parse_number(entries[0])) return {"tau = " + entries[0] + unit_of(chain)};
   std::vector<std::string> forms;
   const std::string alone = only_entry(chain, entries);
-  if (!alone.empty() && unit_of(chain).empty()) forms.push_back(alone);
+  // Of many zeros none tells anything.
+  if (!alone.empty() && (unit_of(chain).empty() || entries.size() > kZerosTold + 1)) forms.push_back(alone);
   for (std::size_t shown = entries.size(); shown >= 2; --shown) {
     if (shown == entries.size() || shown <= 8)
       forms.push_back("tau = (" + list_of(entries, shown) + ")" + unit_of(chain));

@@ -26,6 +26,7 @@ constexpr double kRingRadius = 0.026;     // units of H: close about a joint's d
 constexpr double kAboutPeak[] = {0.04, 0.08, 0.13, 0.19}, kLeastUntied = 0.1;  // units of H: where numbers of cut arrows stand about their places, and how short arrows then need a line
 constexpr double kBesideSwept = 0.03, kFarthestSwept = 0.3;  // units of H: from a circle that a link sweeps, half of its width included; words farther off name nothing
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
+constexpr double kLeastOfTie = 0.034;     // units of H: those of ties begin at a joint's disc, beyond which a head, 0.024 long, is to be seen
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
 constexpr double kNearestName = 0.65;     // of an arc's whole radius: where it changes its sense its name stays, rather than run in and out
 constexpr double kClearOfJoint = 0.020;   // units of H: arcs of twice that have an edge, those within it none
@@ -382,17 +383,18 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const double magnitude = vector.value.norm();
   if (!(magnitude > kRoundOffBelow * scale.full)) return;
   // Those of ties act at joints and ends, whose discs would hide the half of a short one.
-  const bool is_seen = norm(arrow.v) >= (vector.kind == VectorKind::constraint ? marks * kLeastLabelled : size::kShortestArrow);
+  const double least_named = marks * (vector.kind == VectorKind::constraint ? kLeastOfTie : kLeastLabelled);
+  const bool is_seen = norm(arrow.v) >= (vector.kind == VectorKind::constraint ? least_named : size::kShortestArrow);
   const Point tail = place + arrow.shift;
   if (is_seen && vector.aside != 0) draw_tie_to_place(picture, place, tail, marks, color_of(vector.kind, *theme_), clip);
   if (is_seen)
     draw_arrow(picture, tail, arrow.v,
                {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines, theme_->background}, clip);
   // What is hardly more than a head, or none, is a dot, lest it be thought that nothing acts.
-  if (scale.on_page(magnitude) < marks * kLeastLabelled && vector.kind != VectorKind::velocity)
+  if (scale.on_page(magnitude) < least_named && vector.kind != VectorKind::velocity)
     picture.add(Ellipse{vector.pushes ? place : tail, {marks * kPlaceDot, 0}, {0, marks * kPlaceDot}, {color_of(vector.kind, *theme_), {}, 0}}, clip);
   // A word beside such a one names what nobody sees, unless it is a number that stays: of a push, of a weight, or of a peak.
-  const bool is_small = norm(arrow.v) < kLeastLabelled * marks;
+  const bool is_small = norm(arrow.v) < least_named;
   const bool stays = vector.kind == VectorKind::push || vector.kind == VectorKind::weight || vector.peak;
   if (vector.label.empty() || (is_small && !stays)) return;
   const TextLine& text = label(vector, marks, vector.peak ? vector.peak->is_told : is_small);

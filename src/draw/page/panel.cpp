@@ -128,16 +128,22 @@ std::optional<double> Panel::left_at() const {
 // The last events up to this frame, as many as a line holds.
 std::string Panel::event_note(int k, int events) const {
   const Trajectory& run = motion_->trajectory();
-  const EventHits& hits = run.events;
-  const auto begin = hits.t.begin();
-  const auto end =
-      k < run.size() ? std::upper_bound(begin, hits.t.end(), run.t[std::size_t(k)]) : hits.t.end();
+  const double now = k < run.size() ? run.t[std::size_t(k)] : HUGE_VAL;
+  struct Happening {
+    double t;
+    std::string what;
+  };
+  std::vector<Happening> so_far;
+  for (std::size_t i = 0; i < run.events.t.size() && run.events.t[i] <= now; ++i)
+    so_far.push_back({run.events.t[i], scene().events[std::size_t(run.events.event[i])].title()});
+  // Of poses that come again and again the last one is enough.
+  const std::vector<double>& lost = motion_->change_points();
+  if (const auto next = std::ranges::upper_bound(lost, now); next != lost.begin()) so_far.push_back({next[-1], "constraints lose rank"});
+  std::ranges::stable_sort(so_far, {}, &Happening::t);
+  if (events == 0) return so_far.empty() ? "" : so_far.back().what;
   std::string text;
-  for (int i = std::max(0, int(end - begin) - events); i < int(end - begin); ++i) {
-    const EventEntry& event = scene().events[std::size_t(hits.event[std::size_t(i)])];
-    text += (text.empty() ? "" : kBetweenEvents) + time_text(hits.t[std::size_t(i)]) + ": " + event.title();
-  }
-  if (events == 0 && end != begin) text = scene().events[std::size_t(hits.event[std::size_t(end - begin - 1)])].title();
+  for (std::size_t i = so_far.size() - std::min(so_far.size(), std::size_t(events)); i < so_far.size(); ++i)
+    text += (text.empty() ? "" : kBetweenEvents) + time_text(so_far[i].t) + ": " + so_far[i].what;
   return text;
 }
 

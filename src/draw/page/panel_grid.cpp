@@ -7,7 +7,7 @@ namespace {
 
 // Marks have their full size in a panel of this height and shrink with it, down to a limit.
 constexpr double kFullPanel = 0.6, kSmallestMarks = 0.45;
-constexpr double kWorthOfFull = 1.25;   // a grid without an empty cell is taken up to that much smaller
+constexpr double kWorthOfFull = 1.5;   // a grid without an empty cell is taken up to that much smaller
 constexpr double kSmallestSide = 0.06;  // of a panel that shows anything
 
 bool is_large_enough(const Rect& scene) {

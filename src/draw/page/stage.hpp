@@ -30,6 +30,7 @@ struct PanelRun {
   const BodyShapes* shapes = nullptr;      // drawn instead of bars
   double accurate_until = HUGE_VAL;        // s: until when its method promises what was asked for
   std::span<const Trajectory> references{};  // two runs of its motion, far more exact, of which one confirms the other; or none
+  std::vector<double> change_points{};       // s, rising: where its constraints, independent elsewhere, depend on each other
 };
 
 // Pages that have no room for plots beside the scene: what they show stands one above the other.
@@ -70,6 +71,7 @@ class StagedRun {
   const BodyShapes* shapes() const { return run_.shapes; }
   double accurate_until() const { return run_.accurate_until; }
   std::span<const Trajectory> references() const { return run_.references; }
+  const std::vector<double>& change_points() const { return run_.change_points; }
   bool is_constrained() const { return run_.simulation && !run_.simulation->constraints.empty(); }
   bool has_foot() const { return run_.simulation && run_.simulation->events && run_.simulation->events->foot; }
   const std::string& title() const { return title_; }  // of the scene, with what it says of this run
@@ -85,7 +87,7 @@ class StagedRun {
   bool counts() const { return counts_; }
   bool is_wild() const;  // the run did not come to an end that it should have
   bool may_freeze() const { return freezes_ && is_wild(); }
-  bool may_have_notes() const { return may_freeze() || !run_.scene.events.empty(); }
+  bool may_have_notes() const { return may_freeze() || !run_.scene.events.empty() || !run_.change_points.empty(); }
   double limit() const { return limit_; }  // m; places beyond it belong to a run that diverged
 
   // Rails reach as far as the counted samples use them.

@@ -390,6 +390,21 @@ TEST(PlotStrip, HasThreeNumbersUpAnAngleAxisAtLeast) {
   EXPECT_GE(pis, 2);  // beside 0
 }
 
+// Round steps of 0.5 have two numbers between 0.55 and 1.45, and so low a plot has no room for all of 0.6, 0.8, ..: every other one has its number.
+TEST(PlotStrip, HasThreeNumbersUpEachAxisThatHasRoomForThem) {
+  const Fonts fonts;
+  const auto numbers = [&](const std::vector<double>& y, double height) {
+    const PlotStrip strip(strip_data({run_of("a", false, y)}, 0, 2, light_theme()), {0.1, 0.1, 1.6, 0.1 + height}, style_of(fonts));
+    const double left = strip.frame().box.x0;
+    const auto words = strip_words(strip);
+    return std::ranges::count_if(words, [&](const GlyphRun& word) { return word.origin.x < left - 0.005 && word.origin.y < strip.frame().box.y1 + 0.012; });
+  };
+  EXPECT_EQ(numbers({0.6, 1.4, 0.6}, 0.19), 3);
+  EXPECT_GE(numbers({1.3, 2.35, 1.3}, 0.19), 3);
+  EXPECT_EQ(numbers({5, 5, 5}, 0.2), 3) << "0, half of it, and itself";
+  EXPECT_LT(numbers({0.6, 1.4, 0.6}, 0.13), 3) << "no room: negative control";
+}
+
 TEST(PlotStrip, PlotsAndSceneShareThePageWithoutOverlap) {
   const Rect page{0.05, 0.1, 1.7, 0.9};
   const PlotAreas below = plot_areas(page, 2, PlotPlace::below);

@@ -15,6 +15,7 @@
 #include "picture/point.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/read_scene.hpp"
+#include "sim/rank_loss.hpp"
 #include "sim/torques_along.hpp"
 
 namespace chainreel {
@@ -445,6 +446,28 @@ TEST(ConstraintForces, HaveAScaleThatNeedlesDoNotDecideOn) {
   EXPECT_DOUBLE_EQ(without_needles(100, sizes(2, 100, 8)), 6);
   EXPECT_DOUBLE_EQ(without_needles(10, sizes(2, 10, 8)), 10) << "a fifth of it is seen";
   EXPECT_DOUBLE_EQ(without_needles(100, sizes(0, 100, 8)), 100) << "nothing acts else";
+}
+
+// Where constraints lose rank a film says so: in its notes, by a dashed line in its plot, and by that pose behind the chain.
+TEST(ChangePoint, IsShownAtOtherInstants) {
+  const Cause falls("four_bar_singular", {}, 1);
+  std::vector<double> lost;
+  for (const RankLoss& loss : rank_losses_of(falls.simulation, falls.run)) lost.push_back(loss.t);
+  ASSERT_FALSE(lost.empty());
+  const auto film = [&](const std::vector<double>& instants) {
+    PanelRun run{falls.scene, falls.simulation.chain, falls.run, &falls.simulation};
+    run.change_points = instants;
+    return Film(falls.scene, {run}, falls.times, falls.fonts);
+  };
+  const Film told = film(lost), plain = film({});
+  const int then = int(std::lround(60 * lost.front()));
+  EXPECT_EQ(told.panel(0).note(then - 2), "");
+  EXPECT_EQ(told.panel(0).note(then + 1).find("constraints lose rank at t = 0."), 0u) << told.panel(0).note(then + 1);
+  EXPECT_EQ(plain.panel(0).note(then + 1), "");
+  const auto extra = [&](int k) { return int(told.frame(k).items.size()) - int(plain.frame(k).items.size()); };
+  EXPECT_GT(extra(0), 0) << "a pale pose";
+  EXPECT_LT(extra(then), extra(0)) << "where the chain is there itself it is none";
+  EXPECT_GT(told.static_layer().items.size(), plain.static_layer().items.size() + 3) << "dashes across the plot";
 }
 
 // A force that pushes its link comes from outside; where it is drawn from its place on, it lies on the link.

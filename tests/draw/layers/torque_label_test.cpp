@@ -54,6 +54,13 @@ TEST(TorqueLabel, NamesTheOneThatActsWithItsUnit) {
   EXPECT_EQ(torque_notations(test::model("rr"), torque), (std::vector<std::string>{"tau = (10, 0) N m", "tau_1 = 10 N m", "tau = tau(t, q, qd)"}));
 }
 
+// Of several zeros none tells anything; one beside a torque says that the other joint is free.
+TEST(TorqueLabel, LeavesManyZerosOut) {
+  EXPECT_EQ(label("rrr", {"12 - 2 * qd1", "0", "0"}), "tau_1 = (12 - 2 * qd1) N m");
+  EXPECT_EQ(label("rrr", {"12 - 2 * qd1", "0", "1"}), "tau = (12 - 2 * qd1, 0, 1) N m");
+  EXPECT_EQ(label("rr", {"10", "0"}), "tau = (10, 0) N m");
+}
+
 TEST(TorqueLabel, ShowsExpressionsAsWritten) {
   EXPECT_EQ(label("pp", {"0", "-100 * y_G"}), "tau = (0, -100 * y_G) N");
 }
