@@ -395,9 +395,9 @@ TEST(PlotStrip, HasThreeNumbersUpEachAxisThatHasRoomForThem) {
   const Fonts fonts;
   const auto numbers = [&](const std::vector<double>& y, double height) {
     const PlotStrip strip(strip_data({run_of("a", false, y)}, 0, 2, light_theme()), {0.1, 0.1, 1.6, 0.1 + height}, style_of(fonts));
-    const double left = strip.frame().box.x0;
+    const Rect& box = strip.frame().box;
     const auto words = strip_words(strip);
-    return std::ranges::count_if(words, [&](const GlyphRun& word) { return word.origin.x < left - 0.005 && word.origin.y < strip.frame().box.y1 + 0.012; });
+    return std::ranges::count_if(words, [&](const GlyphRun& word) { return word.origin.x < box.x0 - 0.005 && box.y0 - 0.012 < word.origin.y && word.origin.y < box.y1 + 0.012; });
   };
   EXPECT_EQ(numbers({0.6, 1.4, 0.6}, 0.19), 3);
   EXPECT_GE(numbers({1.3, 2.35, 1.3}, 0.19), 3);
