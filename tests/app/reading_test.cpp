@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <set>
 
 #include "app/film/prepared.hpp"
 #include "app/film/runs.hpp"
+#include "app/report/run_report.hpp"
 #include "draw/film/compose.hpp"
 #include "draw/film/film.hpp"
 #include "draw/page/house_style.hpp"
@@ -90,6 +92,32 @@ TEST_P(ReadingOfEveryScene, PortraitAndSquareAreComposed) {
     EXPECT_GE(all.width(), 0.75 * aspect) << "scenes take the width of narrow pages";
     EXPECT_GE(all.height(), 0.30);
     EXPECT_THAT(page.pictures.left_out(), testing::IsEmpty());
+  }
+}
+
+// Of the frame about the only plot's data, units of H squared: four lines in the theme's rule.
+double area_of_plot(const Picture& picture) {
+  Rect box{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const Item& item : picture.items) {
+    const auto* line = std::get_if<Capsule>(&item.shape);
+    if (line == nullptr || !(line->paint.fill == light_theme().rule) || line->radius != size::kPlotFrame / 2) continue;
+    box = {std::min(box.x0, line->a.x), std::min(box.y0, line->a.y), std::max(box.x1, line->a.x), std::max(box.y1, line->a.y)};
+  }
+  return (box.x1 - box.x0) * (box.y1 - box.y0);
+}
+
+TEST(Reading, LargeWordsTakeTheirRoomFromTheSceneNotFromPlots) {
+  for (const std::string layout : {"scene-right", "scene-below"}) {
+    const auto page_at = [&](const std::string& text_scale) {
+      return Page("rr_torque", {"plot=energy", "layout=" + layout, "text_scale=" + text_scale});
+    };
+    const Page usual = page_at("1"), large = page_at("3");
+    EXPECT_GE(area_of_plot(large.picture), 0.9 * area_of_plot(usual.picture)) << layout;
+    EXPECT_GE(large.pictures.camera().scale, 0.4 * usual.pictures.camera().scale) << layout;
+    // Below the scene there is no room for such words: they are held, which is said.
+    EXPECT_EQ(large.pictures.held_text_scale() > 0, layout == "scene-below");
+    EXPECT_EQ(left_out_words({}, large.pictures.held_text_scale(), large.film.scene).size(), layout == "scene-below" ? 1u : 0u);
+    EXPECT_EQ(usual.pictures.held_text_scale(), 0);
   }
 }
 

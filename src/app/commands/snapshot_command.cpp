@@ -215,7 +215,7 @@ void snapshot_scene(const SnapshotOptions& options) {
       shown.memory.audit[kPaper] = to_json(options.paper);
     }
     if (i == 0) tell_warnings(shown.warnings);
-    if (i == 0) tell_left_out(shown.left_out, film.scene, options.common.quiet);
+    if (i == 0) tell_left_out(shown.left_out, shown.held_text_scale, film.scene, options.common.quiet);
     pictures.write(i, shown.picture, fonts, shown.memory);
     numbers.push_back(shown.numbers);
   }

@@ -87,7 +87,7 @@ struct SceneRun::State {
     return moments->moment(at);
   }
   void note(const Moment& shown, std::vector<std::string>* notes) const {
-    if (notes != nullptr && !shown.left_out.empty()) notes->push_back(left_out_words(shown.left_out, film.scene));
+    if (notes != nullptr) std::ranges::move(left_out_words(shown.left_out, shown.held_text_scale, film.scene), std::back_inserter(*notes));
   }
   void require_within(double at) const {
     if (!(at >= 0 && at <= film.scene.duration))

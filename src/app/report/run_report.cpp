@@ -259,8 +259,7 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajector
   return notes;
 }
 
-std::string left_out_words(const std::vector<std::string>& layers, const Scene& page) {
-  if (layers.empty()) return "";
+static std::string layers_left_out(const std::vector<std::string>& layers, const Scene& page) {
   if (page.video.least_text > 0)
     return page.name + ": " + joined(layers) + ": not drawn, as nothing is written below 7 pt and the page has no room for more: take "
            "a larger --height-mm or --width-mm";
@@ -270,8 +269,18 @@ std::string left_out_words(const std::vector<std::string>& layers, const Scene& 
          " px" + where + " and " + std::to_string(page.video.width) + " x " + std::to_string(page.video.height) + " px have no room for more";
 }
 
-void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bool quiet) {
-  if (!quiet && !layers.empty()) std::fprintf(stderr, "note: %s\n", left_out_words(layers, page).c_str());
+std::vector<std::string> left_out_words(const std::vector<std::string>& layers, double held_text_scale, const Scene& page) {
+  std::vector<std::string> lines;
+  if (!layers.empty()) lines.push_back(layers_left_out(layers, page));
+  if (held_text_scale > 0)
+    lines.push_back(page.name + ": words have text_scale " + format_significant(held_text_scale, 2) + " instead of " + format_shortest(page.text_scale) +
+                    ", as its plot and its scene have no room beside larger ones");
+  return lines;
+}
+
+void tell_left_out(const std::vector<std::string>& layers, double held_text_scale, const Scene& page, bool quiet) {
+  if (quiet) return;
+  for (const std::string& line : left_out_words(layers, held_text_scale, page)) std::fprintf(stderr, "note: %s\n", line.c_str());
 }
 
 double held_first(const Scene& scene) {
@@ -291,7 +300,7 @@ std::string to_words(const Stretch& one) {
 }
 
 FilmReport film_report(const Runs& runs, const Film& pictures, int frames) {
-  FilmReport report{runs, {}, frames, pictures.clock(), {}, {}, Writes::films, pictures.left_out()};
+  FilmReport report{runs, {}, frames, pictures.clock(), {}, {}, Writes::films, pictures.left_out(), pictures.held_text_scale()};
   double end = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     report.panels.push_back(run_report(runs.film().panels[i], runs[i]));

@@ -55,6 +55,7 @@ struct FilmReport {
   std::vector<Pause> pauses;         // ... in the order of `annotate:`
   Writes writes = Writes::films;     // a single picture of it, or all
   std::vector<std::string> left_out = {};  // layers that a page this small has no room for
+  double held_text_scale = 0;              // that its words have, where those asked for have no room; 0: as asked
   ViewReport view = {};                    // of the first panel
 
   const PreparedFilm& film() const { return runs.film(); }
@@ -81,10 +82,10 @@ void warn_of_rank(const PreparedScene& prepared, double end);
 void warn_of_run(const PreparedScene& prepared, const Trajectory& trajectory);
 void warn_of_run(const PreparedScene& prepared);
 
-// Layers that the scene draws and the page is too small for, in words; "" where there are none.
-std::string left_out_words(const std::vector<std::string>& layers, const Scene& page);
+// Layers that the scene draws and the page is too small for, and the text_scale that it has no room for, a line each.
+std::vector<std::string> left_out_words(const std::vector<std::string>& layers, double held_text_scale, const Scene& page);
 // The same on standard error.
-void tell_left_out(const std::vector<std::string>& layers, const Scene& page, bool quiet);
+void tell_left_out(const std::vector<std::string>& layers, double held_text_scale, const Scene& page, bool quiet);
 
 // What a run met with that one may not see in it, half a sentence each: limits that were passed, unless their passing ended it, and
 // what ended it before its time, unless that is a failure. The same of films and of tables.

@@ -77,6 +77,7 @@ struct Moments::State {
       moment.warnings.push_back(film.scene.name + ": " + (runs.size() == 1 ? failed : in_panel(scene, runs[i], i, failed)));
     }
     moment.left_out = report.left_out;
+    moment.held_text_scale = report.held_text_scale;
     moment.numbers = numbers(frame);
     return moment;
   }

@@ -23,6 +23,7 @@ struct Moment {
   ClipMemory memory;
   std::vector<std::string> warnings;  // what speaks against the runs
   std::vector<std::string> left_out;  // layers that a page this small has no room for
+  double held_text_scale = 0;         // as of FilmReport
   Json numbers;                       // {"at", "panels": [what each shows]}
 };
 

@@ -106,14 +106,14 @@ void tell(const FilmReport& report, const RenderJob& job, RenderResult& result) 
   result.warnings = warning_lines(report);
   if (job.tells) {
     tell_warnings(result.warnings);
-    tell_left_out(report.left_out, page, job.quiet);
+    tell_left_out(report.left_out, report.held_text_scale, page, job.quiet);
     if (job.quiet) return;
     for (const std::string& note : result.notes) std::fprintf(stderr, "%s\n", note.c_str());
     return;
   }
   // Nothing has been said of the scenes either.
   std::ranges::move(doubt_lines(report.film().panels), std::back_inserter(result.warnings));
-  if (!report.left_out.empty()) result.notes.push_back(left_out_words(report.left_out, page));
+  std::ranges::move(left_out_words(report.left_out, report.held_text_scale, page), std::back_inserter(result.notes));
 }
 
 // For LaTeX's package animate, which takes a frame rate as a number and frames by their first and last.

@@ -23,6 +23,11 @@ constexpr double kTitleAir = 1.1;      // times the least width of a panel's tit
 constexpr double kFlatMotion = 0.7;      // of the scene's height
 constexpr double kWorthwhile = 0.02;   // ... of the width
 constexpr double kLeastOfWidth = 0.6;  // pages still narrower keep the words of this one
+constexpr double kKeptOfFrame = 0.9;   // of the frame of a plot at text_scale 1, whatever words take
+constexpr double kMostForWords = 0.75; // of the width or the height that plots share with the scene
+constexpr double kKeptBesideWords = 0.4;  // of the scene's size at text_scale 1
+constexpr double kSmallerWords = 0.93;  // from trial to trial
+constexpr int kRoomTrials = 4;         // each finds most of what is lacking
 
 // The first in the order that the page still shows; null where none is left.
 const char* next_to_go(const Scene& page) {
@@ -125,7 +130,7 @@ std::optional<Composition> with_narrow_plots(const Scene& page, const Shown& fil
 
 // Plots beside a narrow motion have the width that it leaves; those below a flat one, on pages that are narrow, of its height. `is_ours`: nobody
 // asked for them to stand there.
-Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story, bool is_ours = false) {
+Composition with_spare_room(const Scene& page, const Shown& film, const Story& story, bool is_ours) {
   Composition usual = with_readable_words(page, film, story);
   if (page.camera.fit) return usual;
   if (std::optional<Composition> beside = with_plots_beside_panels(page, film, story, usual)) return std::move(*beside);
@@ -145,6 +150,66 @@ Composition with_wide_plots(const Scene& page, const Shown& film, const Story& s
   const double spare = usual.view.cells.front().scene.height() - usual.view.size_used().y - kKeptBeside;
   room.each = std::min(high + kPlotsOfSpare * spare / count, kHighestPlots / count);
   return room.each > high + kWorthwhile ? with_readable_words(page, film, story, room) : std::move(usual);
+}
+
+double area_of(const PlotStrip& plot) {
+  return plot.frame().box.width() * plot.frame().box.height();
+}
+
+// By how much the frame of the plot that words have made smallest is smaller than it is with words of their usual size.
+double lack_of_frames(const Composition& large, const Composition& usual) {
+  double most = 1;
+  const std::size_t count = std::min(large.sheet.plots.size(), usual.sheet.plots.size());
+  for (std::size_t i = 0; i < count; ++i)
+    most = std::max(most, kKeptOfFrame * area_of(usual.sheet.plots[i]) / area_of(large.sheet.plots[i]));
+  return most;
+}
+
+// The room that gives plots what they lack, as far as the scene has it.
+PlotRoom room_for_frames(const Composition& large, double lack) {
+  PlotRoom room = large.sheet.plot_room;
+  const Rect &frame = large.sheet.plots.front().frame().box, &area = large.sheet.plots.front().area();
+  if (large.sheet.has_plots_beside) {
+    room.beside = std::min((area.width() + (lack - 1) * frame.width()) / (area.x1 - large.sheet.sheet.scene.x0), kMostForWords);
+  } else {
+    room.each = area.height() + (lack - 1) * frame.height();
+    room.most = kMostForWords;
+  }
+  return room;
+}
+
+Composition with_frames_kept(Composition large, const Composition& usual, const Scene& page, const Shown& film, const Story& story) {
+  double lack = lack_of_frames(large, usual);
+  for (int trial = 0; trial < kRoomTrials && lack > 1 + kRoundOff; ++trial) {
+    Composition roomier = with_readable_words(page, film, story, room_for_frames(large, lack));
+    const double less = lack_of_frames(roomier, usual);
+    if (!(less < lack)) break;
+    lack = less;
+    large = std::move(roomier);
+  }
+  return large;
+}
+
+// Where words are larger than usual the scene yields the room that they take, not the plots; they are as large as leaves it enough.
+Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story, bool is_ours = false) {
+  Composition asked = with_spare_room(page, film, story, is_ours);
+  if (!(page.text_scale > 1) || page.video.least_text > 0 || asked.sheet.plots.empty()) return asked;
+  Scene words = page;
+  words.text_scale = 1;
+  Composition usual = with_spare_room(words, film, story, is_ours);
+  for (double text_scale = page.text_scale; text_scale > 1; text_scale *= kSmallerWords) {
+    words.text_scale = text_scale;
+    try {
+      Composition large = with_frames_kept(with_spare_room(words, film, story, is_ours), usual, words, film, story);
+      if (lack_of_frames(large, usual) > 1 + kRoundOff || large.view.camera.scale < kKeptBesideWords * usual.view.camera.scale) continue;
+      if (text_scale < page.text_scale) large.held_text_scale = text_scale;
+      return large;
+    } catch (const Error& error) {
+      if (!tells_of_no_room(error)) throw;
+    }
+  }
+  usual.held_text_scale = 1;
+  return usual;
 }
 
 // What is shown of a page: its layout, and what is plotted where it names nothing.

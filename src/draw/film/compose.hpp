@@ -28,6 +28,7 @@ struct Composition {
   FilmSheet sheet;
   FilmView view;
   std::vector<std::string> left_out;  // layers that the page is too small for
+  double held_text_scale = 0;  // that words have where plots and scene have no room beside those that are asked for; 0: as asked
 };
 
 // Where words had to be enlarged, layers go one after the other, in the order equation, torque_label, legend, mass_matrix,
@@ -39,6 +40,9 @@ struct Composition {
 // In layout `compare` plots stand beside the panels of a motion that is at most half as wide as high, where these are no smaller for it.
 // Comparisons have theirs on pages that are narrow, and those that lie over one another on all, where it costs next to nothing; those
 // of methods, which look alike, where kLeastKeptOfMethods is kept.
+//
+// Words of a text_scale above 1 take their room from the scene, not from the plots: a frame keeps nine tenths of its area. Where the
+// scene would then keep less than two fifths of its size words are as large as leaves it that.
 inline constexpr double kLeastScene = 0.45;
 // A motion so narrow that it leaves half of a narrow page empty gives its plot more: kLeastKeptOfNarrow.
 inline constexpr double kLeastKept = 0.8, kLeastKeptOfPanels = 0.95, kLeastKeptOfMethods = 0.55, kLeastKeptOfNarrow = 0.6;

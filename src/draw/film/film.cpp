@@ -64,7 +64,8 @@ Film::Film(Composition composed)
       titles_(sheet_.panel_titles(*stage_, view_.cells)),
       panels_(panels_of(*stage_, view_)),
       words_(*stage_, layers_, sheet_, view_, panels_),
-      left_out_(std::move(composed.left_out)) {}
+      left_out_(std::move(composed.left_out)),
+      held_text_scale_(composed.held_text_scale) {}
 
 Picture Film::page() const {
   Picture picture;

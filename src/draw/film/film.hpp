@@ -44,6 +44,7 @@ class Film {
   const Rect& scene_area(int i = 0) const { return panel(i).area(); }
   // Layers that the scene draws and that a page this small has no room for.
   const std::vector<std::string>& left_out() const { return left_out_; }
+  double held_text_scale() const { return held_text_scale_; }  // as of Composition
   // Where the words of a panel's marks stand at its frame k.
   std::vector<StandingWord> words(int i, int k) const;
 
@@ -68,6 +69,7 @@ class Film {
   std::vector<Panel> panels_;
   FilmWords words_;
   std::vector<std::string> left_out_;
+  double held_text_scale_ = 0;
   std::unique_ptr<std::mutex> drawing_ = std::make_unique<std::mutex>();  // poses and masses of a run use one workspace
 };
 

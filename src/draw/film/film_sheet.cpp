@@ -203,12 +203,12 @@ TextLine abbreviated(const Fonts& fonts, const std::string& title, const TextSty
 
 }  // namespace
 
-FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& story, PlotRoom room) {
+FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& story, const PlotRoom& room_given) : plot_room(room_given) {
   const Scene& page = stage.page;
   const SheetText text = words_of(stage, layers);
   const double aspect = double(page.video.width) / page.video.height;
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
-  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story, room);
+  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
   if (has_panel_titles) rows.title = page.video.panel_names > 0 ? row_of_names(stage, sheet.scene) : kTitleRow * full_title_size(page);
   if (text.with_panel_titles && stage.is_ghost()) {
@@ -225,14 +225,14 @@ double least_plot(const Scene& page) {
 
 // One plot below the scene, more beside it, unless the layout says otherwise; below several panels, or beside those of a narrow motion. What the scene
 // did not ask for stands beside runs that lie over one another.
-void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, const PlotRoom& room) {
+void FilmSheet::lay_out_plots(const Stage& stage, const Story& story) {
   const Scene& page = stage.page;
   std::vector<StripRun> runs;
   for (std::size_t i = 0; i < stage.motions.size(); ++i)
     runs.push_back(strip_run(page, stage.motions[i], story.empty() ? std::vector<PlotCurves>() : story[i]));
   const int count = int(story.empty() ? page.plot.size() : story.front().size());
   const bool right = stage.is_ghost()        ? !story.empty()
-                     : stage.is_comparison() ? room.beside_panels
+                     : stage.is_comparison() ? plot_room.beside_panels
                                              : page.layout != PageLayout::scene_below && (count > 1 || page.layout == PageLayout::scene_right);
   const PlotPlace place = is_narrow(page) ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
   double end = stage.times.back();
@@ -248,7 +248,8 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story, const Plot
   }
   if (page.video.least_text > 0) shares.clear();  // each has a least height there
   const PlotAreas areas = plot_areas(sheet.scene, count, place,
-                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, room.beside, std::max(least_plot(page), room.each), shares);
+                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, plot_room.beside,
+                                     std::max(least_plot(page), plot_room.each), shares, plot_room.most);
   has_plots_beside = place == PlotPlace::right;
   has_plots_stacked = place == PlotPlace::stacked && !areas.plots.empty();
   sheet.scene = areas.scene;

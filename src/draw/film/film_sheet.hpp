@@ -17,11 +17,11 @@ namespace chainreel {
 inline constexpr double kTitleDescent = 0.40;
 
 struct FilmSheet {
-  // `story`: what is plotted where the scene names no plot, see story.hpp. `beside`: share of the width of plots beside the
-  // scene. Throws Error (bad input) where the words leave no room.
-  FilmSheet(const Stage& stage, const Layers& layers, const Story& story = {}, PlotRoom room = {});
+  // `story`: what is plotted where the scene names no plot, see story.hpp. Throws Error (bad input) where the words leave no room.
+  FilmSheet(const Stage& stage, const Layers& layers, const Story& story = {}, const PlotRoom& room_given = {});
 
   Sheet sheet;  // its scene is what is left for all panels
+  PlotRoom plot_room;  // that plots were given
   std::vector<PlotStrip> plots;
   std::optional<GhostKey> key;  // of layout `ghost`
   PanelRows rows;               // that panels keep free for words of their own
@@ -36,7 +36,7 @@ struct FilmSheet {
   std::vector<PlacedText> panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const;
 
  private:
-  void lay_out_plots(const Stage& stage, const Story& story, const PlotRoom& room);
+  void lay_out_plots(const Stage& stage, const Story& story);
 };
 
 }  // namespace chainreel

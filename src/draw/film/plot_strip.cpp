@@ -388,13 +388,13 @@ void add_column(std::vector<Rect>& plots, const Rect& all, int count, double tex
 }  // namespace
 
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below,
-                     double text_scale, double beside, double least_each, const std::vector<double>& shares) {
+                     double text_scale, double beside, double least_each, const std::vector<double>& shares, double most) {
   PlotAreas areas{page, {}};
   if (count == 0) return areas;
   const double gap = size::kGutter;
   Rect all = page;
   if (place == PlotPlace::stacked) {
-    all.y1 = page.y0 + std::min(std::max(kShareStacked * page.height(), least_each) * count, kMostStacked * page.height());
+    all.y1 = page.y0 + std::min(std::max(kShareStacked * page.height(), least_each) * count, (most > 0 ? most : kMostStacked) * page.height());
     areas.scene.y0 = all.y1 + gap;
     add_column(areas.plots, all, count, text_scale, shares);
     return areas;
@@ -402,7 +402,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
   if (place == PlotPlace::below) {
     const double height = page.height(), words = std::max(0.0, text_scale - 1) * kWordsOfPlot;
     all.y1 = page.y0 + std::max(kShareBelow * height,
-                                std::min(std::max({kShareBelow * height + words, least_below + words, least_each}), kMostBelow * height));
+                                std::min(std::max({kShareBelow * height + words, least_below + words, least_each}), (most > 0 ? most : kMostBelow) * height));
     areas.scene.y0 = all.y1 + gap;
     const double width = (all.width() - gap * (count - 1)) / count;
     for (int i = 0; i < count; ++i) {

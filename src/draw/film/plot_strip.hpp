@@ -94,15 +94,17 @@ struct PlotAreas {
 // their room from the scene, not from the plots below it. `beside`: share of the width of plots beside the scene. `least_each`: height of a
 // plot below the scene with its words, where the room allows.
 inline constexpr double kPlotsBeside = 0.38;
-// What a motion leaves to plots: that share, and a height in units of H for each where they stand above one another; and whether those of
-// several panels stand beside these.
+// What a motion leaves to plots: that share, and a height in units of H for each that does not stand beside it, up to `most` of what
+// plots and scene share (0: as usual); and whether those of several panels stand beside these.
 struct PlotRoom {
   double beside = kPlotsBeside, each = 0;
   bool beside_panels = false;
+  double most = 0;
 };
-// `shares`: of the height that plots above one another share, one each; none: alike.
+// `shares`: of the height that plots above one another share, one each; none: alike. `most`: of the page's height for plots that do not
+// stand beside the scene; 0: as usual.
 PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_below = 0, double text_scale = 1,
-                     double beside = kPlotsBeside, double least_each = 0, const std::vector<double>& shares = {});
+                     double beside = kPlotsBeside, double least_each = 0, const std::vector<double>& shares = {}, double most = 0);
 
 // How much of that a plot needs: one of a constant or two less.
 double share_of_height(const StripData& data);
