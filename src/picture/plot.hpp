@@ -79,6 +79,9 @@ double tick_label_width(const Tick& tick, const PlotStyle& style);
 // Where the base line of the title of a vertical axis stands above the frame: over the highest number and its exponent.
 double title_above_frame(const PlotStyle& style);
 
+// What numbers below a frame without a title of its horizontal axis, and the title above it, take of its height.
+double height_around_frame(const PlotStyle& style);
+
 // The frame inside `area` that leaves room for tick labels and axis titles.
 PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const PlotStyle& style);
 

@@ -327,6 +327,10 @@ double title_above_frame(const PlotStyle& style) {
   return kTitleAbove * style.text(size::kTick) / size::kTick;
 }
 
+double height_around_frame(const PlotStyle& style) {
+  return size::kPlotTick + kTickToLabel + style.text(size::kTick) + style.text(size::kAxis) + title_above_frame(style);
+}
+
 PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const PlotStyle& style) {
   const double tick = style.text(size::kTick), title = style.text(size::kAxis);
   PlotFrame frame{x, y, area};

@@ -13,7 +13,8 @@
 namespace chainreel {
 namespace {
 
-constexpr double kPlotOfComparison = 0.28;  // of the page's height: there the plot is the message
+constexpr double kPlotOfComparison = 0.28;  // of the page's height, for a plot's frame: there the plot is the message
+constexpr double kMostOfComparison = 0.52;  // ... of what panels share with it, with its words
 constexpr double kPlotInWords = 9.5;  // heights of the smallest words, with the plot's own
 constexpr double kTitleRow = 1.55;  // of the em: a panel's title or note with the air around it
 
@@ -208,8 +209,8 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& stor
   const SheetText text = words_of(stage, layers);
   const double aspect = double(page.video.width) / page.video.height;
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
-  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
+  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story);
   if (has_panel_titles) rows.title = page.video.panel_names > 0 ? row_of_names(stage, sheet.scene) : kTitleRow * full_title_size(page);
   if (text.with_panel_titles && stage.is_ghost()) {
     key.emplace(stage, sheet.scene.width());
@@ -228,8 +229,10 @@ double least_plot(const Scene& page) {
 void FilmSheet::lay_out_plots(const Stage& stage, const Story& story) {
   const Scene& page = stage.page;
   std::vector<StripRun> runs;
-  for (std::size_t i = 0; i < stage.motions.size(); ++i)
+  for (std::size_t i = 0; i < stage.motions.size(); ++i) {
     runs.push_back(strip_run(page, stage.motions[i], story.empty() ? std::vector<PlotCurves>() : story[i]));
+    runs.back().is_named_by_colour = has_panel_titles && stage.motions[i].variant().has_value();
+  }
   const int count = int(story.empty() ? page.plot.size() : story.front().size());
   const bool right = stage.is_ghost()        ? !story.empty()
                      : stage.is_comparison() ? plot_room.beside_panels
@@ -247,13 +250,14 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story) {
     shares.push_back(share_of_height(data.back()));
   }
   if (page.video.least_text > 0) shares.clear();  // each has a least height there
+  const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale, 1.0 / page.video.height};
   const PlotAreas areas = plot_areas(sheet.scene, count, place,
-                                     stage.is_comparison() ? kPlotOfComparison : 0, page.text_scale, plot_room.beside,
-                                     std::max(least_plot(page), plot_room.each), shares, plot_room.most);
+                                     stage.is_comparison() ? kPlotOfComparison + height_around_frame(style) : 0, page.text_scale, plot_room.beside,
+                                     std::max(least_plot(page), plot_room.each), shares,
+                                     plot_room.most > 0 ? plot_room.most : stage.is_comparison() && place == PlotPlace::below ? kMostOfComparison : 0);
   has_plots_beside = place == PlotPlace::right;
   has_plots_stacked = place == PlotPlace::stacked && !areas.plots.empty();
   sheet.scene = areas.scene;
-  const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale, 1.0 / page.video.height};
   for (std::size_t i = 0; i < areas.plots.size(); ++i)
     plots.emplace_back(std::move(data[i]), areas.plots[i], style);
   if (place == PlotPlace::below) return;

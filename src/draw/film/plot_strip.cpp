@@ -19,6 +19,7 @@ constexpr double kBoundLine = 0.0025;
 constexpr double kPale = 0.45;   // of a curve that is still to come
 constexpr double kShareBelow = 0.30;  // of the page's height
 constexpr double kMostLabels = 0.4;  // of a plot's width may be taken by the names of its curves
+constexpr double kMostNumbers = 0.25;    // ... by numbers that its axis tells roughly
 constexpr double kMostOwnLabels = 0.6;  // ... of the curves of one run, which are named nowhere else
 constexpr double kShareStacked = 0.26, kMostStacked = 0.55;  // of the height: of each plot, and of all
 constexpr double kPlotLabelGap = 0.012;
@@ -27,6 +28,7 @@ constexpr std::size_t kMostOnConstant = 2;  // names of curves that have room be
 constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
 constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
 constexpr double kNoteGap = 0.02;
+constexpr double kToldOfSpan = 100;     // parts of an axis that the number at a curve's end tells
 constexpr double kStepMark = 0.009;  // units of H, across
 constexpr double kSameEnd = 1e-6;    // of a step: its end
 constexpr double kLeastOfMoved = 0.05;  // of the energy that a motion moves: a drift of a hundredth of it is a fifth of the plot, noise of methods a line
@@ -80,12 +82,12 @@ std::string title_with_symbol(const PlotCurves& plot) {
   return leads ? "$" + symbol + "$" + plot.title.substr(symbol.size()) : plot.title;
 }
 
-// In comparisons of two the titles bear the colours of their curves.
+// In comparisons the titles bear the colours of their curves, where there are few.
 std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& run, std::size_t runs) {
   const std::string& own = plot.curves[curve].name;
   const bool is_symbol = !symbol_of(plot.quantity).empty() || is_of_ellipse(plot.quantity);
   const std::string name = is_symbol ? "$" + own + "$" : own;
-  if (runs <= 2) return runs == 1 || plot.curves.size() > 1 ? name : "";
+  if (runs <= 2 || run.is_named_by_colour) return runs == 1 || plot.curves.size() > 1 ? name : "";
   const std::string& title = run.title;
   return plot.curves.size() > 1 ? name + ", " + title : title;
 }
@@ -213,7 +215,7 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
   for (StripCurve& curve : data_.curves) say_where_it_goes(curve, values, data_.title);
   std::vector<std::string> labels = labels_of(data_);
   // The names of runs stand above their panels, too, in the colours of the curves.
-  const double most = data_.of_runs ? kMostLabels : kMostOwnLabels;
+  const double most = data_.ends_in_numbers ? kMostNumbers : data_.of_runs ? kMostLabels : kMostOwnLabels;
   if (!labels.empty() && end_labels_width(labels, style_) > most * area.width()) {
     for (StripCurve& curve : data_.curves) {
       curve.label.clear();
@@ -272,10 +274,15 @@ void PlotStrip::draw_static(Picture& picture) const {
 void PlotStrip::draw_note(Picture& picture, const std::string& words) const {
   if (words.empty()) return;
   const TextLine title = lay_out_words(*style_.fonts, data_.title, {Face::label, style_.text(size::kAxis), style_.theme->ink});
-  const TextLine note = lay_out_words(*style_.fonts, words, {Face::label, style_.text(size::kTick), style_.theme->muted, Align::right});
-  // Over the names of curves, too, where the frame is narrow.
-  const double right = std::max(frame_.box.x1, area_.x0 + title.advance + kNoteGap + note.advance);
-  if (right <= area_.x1 + kSameEnd) draw_text(picture, note, {right, frame_.box.y1 + title_above_frame(style_)});
+  for (const std::string& said : {words, data_.short_note}) {
+    if (said.empty()) continue;
+    const TextLine note = lay_out_words(*style_.fonts, said, {Face::label, style_.text(size::kTick), style_.theme->muted, Align::right});
+    // Over the names of curves, too, where the frame is narrow.
+    const double right = std::max(frame_.box.x1, area_.x0 + title.advance + kNoteGap + note.advance);
+    if (right > area_.x1 + kSameEnd) continue;
+    draw_text(picture, note, {right, frame_.box.y1 + title_above_frame(style_)});
+    return;
+  }
 }
 
 void PlotStrip::draw_frame(Picture& picture, double t) const {
@@ -292,8 +299,37 @@ void add_doubts(const StripRun& run, std::size_t i, StripData& data) {
     data.accurate_until = run.accurate_until;
     if (i == 0) data.note = "accurate until " + format_significant(run.accurate_until, 3) + " s";
   } else if (!data.of_runs && run.energy_off > 0 && run.plots[i].quantity == PlotQuantity::energy) {
-    data.note = "total off by " + format_significant(run.energy_off, 2) + " J";
+    data.short_note = "error: " + format_significant(run.energy_off, 2) + " J";
+    data.note = "numerical error of total: " + format_significant(run.energy_off, 2) + " J";
   }
+}
+
+// To so many decimals that a hundredth of the axis is told; of a smaller axis "2\u00D710\u207B\u2079".
+std::string told_number(double value, double span) {
+  constexpr int kMostDecimals = 4;
+  const int decimals = std::max(0, int(std::ceil(-std::log10(span / kToldOfSpan) - kSameEnd)));
+  const std::string size = decimals <= kMostDecimals ? format_fixed(std::abs(value), decimals) : value != 0 ? format_power(std::abs(value)) : "0";
+  const bool is_zero = size.find_first_of("123456789") == std::string::npos;
+  return (is_zero ? "" : value < 0 ? "\u2212" : "+") + size;
+}
+
+// Where titles of panels name the curves, those of energies end with what the runs have made of it.
+void add_last_energies(const std::vector<StripRun>& runs, std::size_t i, StripData& data) {
+  const auto is_energy = [i](const StripRun& run) {
+    if (!run.is_named_by_colour || i >= run.plots.size()) return false;
+    return run.plots[i].quantity == PlotQuantity::energy || run.plots[i].quantity == PlotQuantity::energy_error;
+  };
+  if (!data.of_runs || data.curves.size() != runs.size() || !std::ranges::all_of(runs, is_energy)) return;
+  std::vector<double> shown;
+  for (const StripCurve& curve : data.curves)
+    for (const Point& p : curve.points)
+      if (curve.decides) shown.push_back(p.y);
+  const double span = std::max(data.least_span, span_of(shown));
+  if (!(span > 0)) return;
+  data.ends_in_numbers = true;
+  for (StripCurve& curve : data.curves)
+    if (curve.decides && !curve.points.empty() && std::isfinite(curve.points.back().y))
+      curve.label = told_number(curve.points.back().y, span) + unit_in(data.title);
 }
 
 // Of two curves in one place the later one has gaps that show the other.
@@ -352,6 +388,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
       data.curves.push_back(std::move(curve));
     }
   }
+  add_last_energies(runs, i, data);
   part_equal_curves(data.curves);
   return data;
 }
@@ -402,7 +439,7 @@ PlotAreas plot_areas(const Rect& page, int count, PlotPlace place, double least_
   if (place == PlotPlace::below) {
     const double height = page.height(), words = std::max(0.0, text_scale - 1) * kWordsOfPlot;
     all.y1 = page.y0 + std::max(kShareBelow * height,
-                                std::min(std::max({kShareBelow * height + words, least_below + words, least_each}), (most > 0 ? most : kMostBelow) * height));
+                                std::min(std::max({kShareBelow * height + words, least_below, least_each}), (most > 0 ? most : kMostBelow) * height));
     areas.scene.y0 = all.y1 + gap;
     const double width = (all.width() - gap * (count - 1)) / count;
     for (int i = 0; i < count; ++i) {

@@ -29,12 +29,14 @@ struct StripData {
   bool has_poles = false;  // masses, which are infinite at singular poses
   std::vector<StripCurve> curves;
   bool of_runs = false;  // several: a curve is a run's
+  bool ends_in_numbers = false;  // of its curves, which titles of panels name
   double least_span = 0;  // of the numbers' axis: what is told beyond it is noise
   std::string constancy{};  // "constant to 0.002 J", behind the title where that has room; "": it changes
   double end = 0;        // of the clip, s
   double accurate_until = HUGE_VAL;  // s: what is plotted behind it nobody promises
   std::vector<double> change_points{};  // s: of constraints that lose rank, each a dashed line across the frame
   std::string note{};                // above the frame, at its right end, where it has room
+  std::string short_note{};          // ... where that has none
 };
 
 // A stretch of a curve beyond an axis that leaves it out (draw/film/needles).
@@ -79,6 +81,7 @@ struct StripRun {
   double accurate_until = HUGE_VAL;  // s
   std::vector<double> change_points{};  // s
   double energy_off = 0;             // J: what a run makes or loses of it that no one should take for motion
+  bool is_named_by_colour = false;   // its panel's title has the colour of its curves
 };
 
 // Plot i of all runs in one; with several runs colours tell runs apart, dashes what is plotted.
@@ -90,7 +93,7 @@ struct PlotAreas {
   Rect scene;
   std::vector<Rect> plots;
 };
-// `least_below`: height of plots below the scene, units of H, where the room allows. Words that grow with `text_scale` take
+// `least_below`: height of plots below the scene with their words, units of H, where the room allows. Words that grow with `text_scale` take
 // their room from the scene, not from the plots below it. `beside`: share of the width of plots beside the scene. `least_each`: height of a
 // plot below the scene with its words, where the room allows.
 inline constexpr double kPlotsBeside = 0.38;

@@ -227,11 +227,11 @@ TEST(PlotStrip, WhatOneRunKeepsAndAnotherDoesNotIsSeen) {
 // Where steps end, and what nobody promises, is seen in the plot itself.
 TEST(PlotStrip, MarksLongStepsAndWhatIsNotAccurate) {
   const Fonts fonts;
-  const auto drawn = [&](const StripRun& run, PlotQuantity quantity = PlotQuantity::expression) {
+  const auto drawn = [&](const StripRun& run, PlotQuantity quantity = PlotQuantity::expression, Rect area = kStripArea) {
     StripRun shown = run;
     shown.plots[0].quantity = quantity;
     Picture still;
-    PlotStrip(strip_data({shown}, 0, 4, light_theme()), kStripArea, style_of(fonts)).draw_static(still);
+    PlotStrip(strip_data({shown}, 0, 4, light_theme()), area, style_of(fonts)).draw_static(still);
     return still;
   };
   const auto discs = [](const Picture& picture) { return test::all_of<Ellipse>(picture).size(); };
@@ -251,8 +251,11 @@ TEST(PlotStrip, MarksLongStepsAndWhatIsNotAccurate) {
   EXPECT_EQ(zones(drawn(run)), 0u);
   EXPECT_EQ(test::words_of(drawn(run)).find("until"), std::string::npos);
   run.energy_off = 0.567;
-  EXPECT_EQ(test::words_of(drawn(run)).find("off"), std::string::npos) << "a plot of something else";
-  EXPECT_NE(test::words_of(drawn(run, PlotQuantity::energy)).find("total off by 0.57 J"), std::string::npos);
+  EXPECT_EQ(test::words_of(drawn(run)).find("error"), std::string::npos) << "a plot of something else";
+  EXPECT_NE(test::words_of(drawn(run, PlotQuantity::energy)).find("numerical error of total: 0.57 J"), std::string::npos);
+  const std::string narrow = test::words_of(drawn(run, PlotQuantity::energy, {0.1, 0.1, 0.5, 0.4}));
+  EXPECT_EQ(narrow.find("numerical"), std::string::npos);
+  EXPECT_NE(narrow.find("error: 0.57 J"), std::string::npos) << "shorter rather than nothing";
   run.accurate_until = 2.6584;
   EXPECT_EQ(zones(drawn(run)), 1u);
   EXPECT_NE(test::words_of(drawn(run)).find("accurate until 2.66 s"), std::string::npos);
@@ -328,6 +331,21 @@ TEST(PlotStrip, TwoRunsBearTheColoursOfTheirTitlesMoreAreNamed) {
   EXPECT_EQ(two.curves[0].label, "");
   const StripData three = strip_data({a, b, c}, 0, 1, light_theme());
   EXPECT_EQ(three.curves[2].label, "third");
+}
+
+// What a title in its colour says need not be said again: of energies the end tells what has become of them, of others nothing.
+TEST(PlotStrip, EnergiesOfRunsThatTitlesNameEndInNumbers) {
+  std::vector<StripRun> runs{run_of("kept", false, {-20.8, -20.8}), run_of("gained", false, {-20.8, 0.71}), run_of("wild", true, {-20.8, 1e12})};
+  for (StripRun& run : runs) run.is_named_by_colour = true;
+  const StripData heights = strip_data(runs, 0, 1, light_theme());
+  for (const StripCurve& curve : heights.curves) EXPECT_EQ(curve.label, "");
+  for (StripRun& run : runs) run.plots[0].quantity = PlotQuantity::energy_error, run.plots[0].title = "energy error [J]";
+  const StripData energies = strip_data(runs, 0, 1, light_theme());
+  EXPECT_EQ(energies.curves[0].label, "\u221220.8 J");
+  EXPECT_EQ(energies.curves[1].label, "+0.7 J");
+  EXPECT_EQ(energies.curves[2].label, "");
+  runs[1].is_named_by_colour = false;  // where colours do not tell them apart, their names do
+  EXPECT_EQ(strip_data(runs, 0, 1, light_theme()).curves[1].label, "gained");
 }
 
 // Runs of what is written: the math face says q, the label face its unit.
