@@ -310,6 +310,7 @@ TEST(GalleryAudit, PutsRunsSideBySideAndEnduresStrangeKinds) {
   EXPECT_EQ(rows[1].name, "Energy error");
   EXPECT_THAT(rows[1].values[0], HasSubstr("e-09 J (kinetic energy up to 20"));
   EXPECT_EQ(rows[1].values[1], "");
+  EXPECT_EQ(audit_rows({{"method", "semi_implicit_euler"}})[0].values[0], "semi-implicit Euler") << "as pictures name it";
   EXPECT_EQ(audit_facts(audit, 3), "2 panels \u00B7 3.00 s \u00B7 180 frames \u00B7 energy errors 1.3e-09 J, unknown");
   EXPECT_EQ(audit_facts(Json(), 3), "3.00 s");
 }

@@ -152,21 +152,35 @@ TEST_F(CompareScene, NamesPanelsByWhatDiffers) {
   EXPECT_THAT(titles(read("compare: [{step: 0.01, method: rk4}, {step: 0.001, method: rk4, title: mine}]\n")),
               ElementsAre("step 0.01 s", "mine"));
   EXPECT_THAT(titles(read("compare: [{torque: [1, 0]}, {torque: [2, 0]}]\n")),
-              ElementsAre("\u03C4 = (1, 0)", "\u03C4 = (2, 0)"));
+              ElementsAre("$tau_1$ = 1", "$tau_1$ = 2"));
+  EXPECT_THAT(titles(read("compare: [{torque: [1, 0]}, {torque: [2, -3]}]\n")),
+              ElementsAre("\u03C4 = (1, 0)", "\u03C4 = (2, \u22123)"));
+  EXPECT_THAT(titles(read("compare: [{torque: [\"sin(t)\", 0]}, {torque: [2, 0]}]\n")),
+              ElementsAre("\u03C4 = (sin(t), 0)", "\u03C4 = (2, 0)")) << "an expression is no number";
+  // Gravity straight down is told by its size, else by what differs.
+  EXPECT_THAT(titles(read("compare: [{gravity: [0, -9.81, 0]}, {gravity: [0, -1.62, 0]}, {gravity: [0, 0, 0]}]\n")),
+              ElementsAre("$g$ = 9.81 m/s\u00B2", "$g$ = 1.62 m/s\u00B2", "$g$ = 0 m/s\u00B2"));
+  EXPECT_THAT(titles(read("compare: [{gravity: [0, -9.81, 0]}, {gravity: [0, 9.81, 0]}]\n")),
+              ElementsAre("$g_y$ = \u22129.81 m/s\u00B2", "$g_y$ = 9.81 m/s\u00B2"));
   EXPECT_THAT(titles(read("parameters: {k: 1}\ncompare: [{parameters.k: 5}, {}]\n")),
               ElementsAre("k = 5", "k = 1"));
   EXPECT_THAT(titles(read("compare: [{}, {}]\n")), ElementsAre("panel 1", "panel 2"));
   // Of a torque in several words, what differs within it.
   EXPECT_THAT(titles(read("torque: {gravity_compensation: true, pd: {kp: 60, kd: 10, q: [0.5, 0.5]}}\n"
                           "compare: [{torque.pd.kp: 10}, {}]\n")),
-              ElementsAre("kp = 10", "kp = 60"));
+              ElementsAre("$k_p$ = 10", "$k_p$ = 60"));
   EXPECT_THAT(titles(read("torque: {pd: {kp: [60, 30], kd: 10, q: [0.5, 0.5]}}\ncompare: [{torque.pd.kp: [1, 2], torque.pd.kd: 3}, {}]\n")),
-              ElementsAre("kd = 3, kp = (1, 2)", "kd = 10, kp = (60, 30)"));
+              ElementsAre("$k_d$ = 3, $k_p$ = (1, 2)", "$k_d$ = 10, $k_p$ = (60, 30)"));
   EXPECT_THAT(titles(read("torque: {pd: {kp: 60, kd: 10, q: [0.5, 0.5]}}\ncompare: [{torque: [1, 0]}, {}]\n")).front(),
               HasSubstr("(1, 0)"));
-  // Degrees are read as rad: as many digits as one reads, and all of them where that would not tell panels apart.
+  // Of starts the elements that differ, in the unit in which they were written; as many digits as one reads, and all of them where
+  // that would not tell panels apart.
   EXPECT_THAT(titles(read("compare: [{start.q: [-20deg, 0]}, {start.q: [-40deg, 0]}]\n")),
-              ElementsAre("q(0) = (-0.3491, 0)", "q(0) = (-0.6981, 0)"));
+              ElementsAre("$q_1(0)$ = \u221220\u00B0", "$q_1(0)$ = \u221240\u00B0"));
+  EXPECT_THAT(titles(read("start: {q: [-90deg, 0]}\ncompare: [{}, {start.q.2: 90deg}, {start.q.2: 0.5}]\n")),
+              ElementsAre("$q_2(0)$ = 0\u00B0", "$q_2(0)$ = 90\u00B0", "$q_2(0)$ = 0.5"));
+  EXPECT_THAT(titles(read("compare: [{start.q: [1, 0]}, {start.q: [2, -45deg]}]\n")),
+              ElementsAre("q(0) = (1, 0\u00B0)", "q(0) = (2, \u221245\u00B0)"));
   EXPECT_THAT(titles(read("method: rk4\ncompare: [{step: 1.23456781e-05}, {step: 1.23456782e-05}]\n")),
               ElementsAre("step 1.23456781e-05 s", "step 1.23456782e-05 s"));
 }

@@ -23,6 +23,7 @@
 #include "core/output_file.hpp"
 #include "draw/charts/stability_map.hpp"
 #include "draw/page/house_style.hpp"
+#include "scene/run/prepare.hpp"
 #include "scene/run/stability_cells.hpp"
 #include "scene/run/title.hpp"
 #include "scene/text/read_scene.hpp"
@@ -119,12 +120,17 @@ std::string unknown_text(const StabilityCells& cells) {
   return unknown == 0 ? "" : " The energy of the motion is not known of " + std::to_string(unknown) + (unknown == 1 ? " cell, which is pale." : " cells, which are pale.");
 }
 
+// The unit of the coordinate along an axis, which only its model knows.
+Axis stability_axis(Scene scene, const Sweep& sweep) {
+  return map_axis(with_unit_of(prepare(scene, false).chain, sweep));
+}
+
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {
   StabilityMap map;
   map.title = "Where " + method_title(cells.method) + " fails";
   map.subtitle = title_over_runs(scene);
-  map.x = map_axis(cells.x);
-  map.y = map_axis(cells.y);
+  map.x = stability_axis(scene, cells.x);
+  map.y = stability_axis(scene, cells.y);
   map.nx = int(cells.x.values.size());
   map.ny = int(cells.y.values.size());
   map.error_title = "|energy error| / energy [%]";

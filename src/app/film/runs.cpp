@@ -8,6 +8,7 @@
 #include "app/film/progress.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "picture/formula_words.hpp"
 #include "scene/run/title.hpp"
 #include "scene/slow_motion.hpp"
 #include "sim/rank_loss.hpp"
@@ -216,7 +217,7 @@ Composition Runs::composition(const Scene& page, int frames, const Fonts& fonts)
 }
 
 std::string in_panel(const Scene& scene, const Trajectory& trajectory, std::size_t i, const std::string& message) {
-  return "panel " + std::to_string(i + 1) + " (" + title_of(scene, nullptr, trajectory) + "): " + message;
+  return "panel " + std::to_string(i + 1) + " (" + in_plain_words(title_of(scene, nullptr, trajectory)) + "): " + message;
 }
 
 // What its author can do about a run that failed.

@@ -10,6 +10,8 @@
 #include "core/format.hpp"
 #include "core/hash.hpp"
 #include "encode/png.hpp"
+#include "integrate/method.hpp"
+#include "picture/formula_words.hpp"
 
 namespace chainreel {
 namespace {
@@ -162,7 +164,7 @@ std::string energy_error(const Json& run) {
 }
 
 std::string method_line(const Json& run) {
-  std::string text = word(run, "method");
+  std::string text = method_title(word(run, "method"));
   if (text.empty()) return "";
   const std::string order = count_text(run, "order"), tolerance = number_text(run, "tolerance", 3, "");
   const std::string step = number_text(run, "step", 6, " s");
@@ -234,7 +236,7 @@ std::vector<AuditRow> audit_rows(const Json& audit) {
   std::vector<AuditRow> table;
   if (runs.size() > 1) {
     table.push_back({"", {}});
-    for (const Json& run : runs) table.back().values.push_back(word(run, "title"));
+    for (const Json& run : runs) table.back().values.push_back(in_plain_words(word(run, "title")));
   }
   for (const Row& row : rows()) {
     AuditRow filled{row.name, {}};
@@ -268,7 +270,7 @@ std::string audit_facts(const Json& audit, double film_seconds) {
   std::vector<std::string> facts;
   const std::vector<Json> runs = runs_of(audit.is_object() ? audit : Json::object());
   if (runs.size() > 1) facts.push_back(std::to_string(runs.size()) + " panels");
-  if (runs.size() == 1) facts.push_back(word(runs.front(), "method"));
+  if (runs.size() == 1) facts.push_back(method_title(word(runs.front(), "method")));
   facts.push_back(format_fixed(film_seconds, 2) + " s");
   const std::string frames = runs.empty() ? "" : count_text(runs.front(), "frames");
   if (!frames.empty()) facts.push_back(frames + " frames");

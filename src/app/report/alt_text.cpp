@@ -150,7 +150,7 @@ std::string motion_words(const PreparedScene& panel, const Trajectory& run) {
          (chain.nv == 1 ? " freedom" : " freedoms") + tie_words(panel, run) + " moves for " + format_significant(seconds, 4) + " s" +
          " under " +
          (chain.gravity.norm() > 0
-              ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s^2 and "
+              ? "gravity of " + format_significant(chain.gravity.norm(), 4) + " m/s\u00B2 and "
               : "no gravity and ") +
          torque_words(scene) + press_words(panel) + push_words(panel) + payload_words(scene) +
          resistance_words(chain) + ", starting " + (starts_at_rest ? "at rest" : "in motion") +

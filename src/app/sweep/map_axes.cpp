@@ -4,8 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
+#include "model/model_description.hpp"
 
 namespace chainreel {
 
@@ -27,6 +31,18 @@ std::string title_of_key(const std::string& key) {
 std::string title_of_axis(const Sweep& sweep) {
   const std::string title = title_of_key(sweep.key);
   return sweep.unit.empty() || title.ends_with(']') ? title : title + " [" + sweep.unit + "]";
+}
+
+Sweep with_unit_of(const Chain& chain, Sweep sweep) {
+  for (const auto& [prefix, per] : {std::pair<std::string, const char*>{"start.q.", ""}, {"start.qd.", "/s"}}) {
+    if (!sweep.unit.empty() || !sweep.key.starts_with(prefix)) continue;
+    const std::optional<double> number = parse_number(sweep.key.substr(prefix.size()));
+    const std::vector<DescribedCoordinate> coordinates = coordinates_of(chain);
+    const bool is_one = number && *number >= 1 && *number <= double(coordinates.size());
+    const std::string unit = is_one ? coordinates[std::size_t(*number) - 1].unit : "";
+    if (!unit.empty()) sweep.unit = unit + per;
+  }
+  return sweep;
 }
 
 Axis map_axis(const Sweep& sweep) {

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "draw/film/exact_curve.hpp"
 #include "draw/page/wrapped_words.hpp"
+#include "picture/formula_words.hpp"
 #include "picture/thin_points.hpp"
 #include "sim/audit.hpp"
 #include "sim/doubts.hpp"
@@ -193,7 +194,7 @@ bool is_made_up(const StagedRun& motion) {
 // One that is too long at the smallest size says its beginning and its end, where what differs stands; or nothing.
 TextLine abbreviated(const Fonts& fonts, const std::string& title, const TextStyle& style, double width) {
   constexpr std::size_t kLeastKept = 6;  // characters
-  const std::u32string letters = decode_utf8(title);
+  const std::u32string letters = decode_utf8(in_plain_words(title));
   for (std::size_t kept = letters.size(); kept-- > kLeastKept;) {
     const std::u32string shorter = letters.substr(0, kept / 2) + U"\u2026" + letters.substr(letters.size() - (kept - kept / 2));
     TextLine line = lay_out_text(fonts, encode_utf8(shorter), style);

@@ -11,6 +11,7 @@
 #include "core/format.hpp"
 #include "integrate/method.hpp"
 #include "scene/keys/keys.hpp"
+#include "scene/text/element_words.hpp"
 #include "scene/text/write_scene.hpp"
 
 namespace chainreel {
@@ -24,7 +25,7 @@ std::string in_words(std::string text) {
     text.front() = '(';
     text.back() = ')';
   }
-  return text;
+  return with_minus_signs(text);
 }
 
 // Numbers of more digits than one reads, such as those of degrees in rad, with four of them.
@@ -103,7 +104,7 @@ std::vector<std::string> words_within(const std::vector<const SceneEntry*>& entr
     for (const std::string& way : ways) {
       const std::string name = names[last_part(way)] > 1 ? way : last_part(way);
       const auto known = leaves.find(way);
-      own += (own.empty() ? "" : ", ") + (known == leaves.end() ? "no " + name : name + " = " + leaf_in_words(known->second));
+      own += (own.empty() ? "" : ", ") + (known == leaves.end() ? "no " + name : symbol_of_gain(name) + " = " + leaf_in_words(known->second));
     }
   }
   return words;
@@ -129,7 +130,8 @@ std::vector<std::string> titles_of(const std::vector<Scene>& panels) {
     for (const SceneEntry& entry : own[i]) {
       std::vector<const SceneEntry*> of_all;
       for (const auto& entries : own) of_all.push_back(find(entries, entry.key));
-      const std::vector<std::string> within = words_within(of_all);
+      std::vector<std::string> within = words_by_element(panels, of_all);
+      if (within.empty()) within = words_within(of_all);
       const std::string words = within.empty() ? words_of(entry) : within[i];
       if (!words.empty()) title += (title.empty() ? "" : ", ") + words;
     }
