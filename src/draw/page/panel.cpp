@@ -134,7 +134,8 @@ std::string Panel::event_note(int k, int events) const {
     std::string what;
   };
   std::vector<Happening> so_far;
-  for (std::size_t i = 0; i < run.events.t.size() && run.events.t[i] <= now; ++i)
+  const auto behind = std::size_t(std::ranges::upper_bound(run.events.t, now) - run.events.t.begin());
+  for (std::size_t i = behind - std::min(behind, std::size_t(std::max(events, 1))); i < behind; ++i)
     so_far.push_back({run.events.t[i], scene().events[std::size_t(run.events.event[i])].title()});
   // Of poses that come again and again the last one is enough.
   const std::vector<double>& lost = motion_->change_points();
