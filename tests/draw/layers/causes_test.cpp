@@ -11,12 +11,14 @@
 #include "draw/film/film.hpp"
 #include "draw/layers/vectors.hpp"
 #include "draw/shapes.hpp"
+#include "draw/robot/made_bodies.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/rank_loss.hpp"
 #include "sim/torques_along.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace chainreel {
 namespace {
@@ -341,15 +343,69 @@ TEST(LimitLayer, ShowsALimitThatTheMotionComesNearTo) {
   EXPECT_EQ(shown(59), 0u) << "there is none";
   double lowest = 0;
   for (int k = 0; k < cause.run.size(); ++k) lowest = std::min(lowest, cause.q(k, 0));
-  cause.simulation.chain.bodies[1].joint.limit.lower = lowest - 0.05;
-  cause.simulation.chain.bodies[1].joint.limit.upper = 3;
+  Joint& joint = cause.simulation.chain.bodies[1].joint;
+  joint.limit.upper = 3;
+  joint.limit.lower = lowest - 25 * std::numbers::pi / 180;
+  for (int k = 0; k < cause.run.size(); k += 7) EXPECT_EQ(shown(k), 0u) << "it comes within 20 degrees of none";
+  joint.limit.lower = lowest - 0.05;
+  // In all pictures, stronger where it is near, and there with the way that is left.
   int seen = 0;
   for (int k = 0; k < cause.run.size(); ++k) {
-    const bool near = cause.q(k, 0) - (lowest - 0.05) < 10 * std::numbers::pi / 180;
-    EXPECT_EQ(shown(k), near ? 1u : 0u) << k;
+    const bool near = cause.q(k, 0) - joint.limit.lower < 40 * std::numbers::pi / 180;
+    EXPECT_EQ(shown(k), near ? 2u : 1u) << k;
     seen += near;
   }
   EXPECT_GE(seen, 2);
+  EXPECT_LT(seen, cause.run.size());
+}
+
+// In space a robot has bodies, behind which its target stands pale, and over which coils lie.
+struct DrivenInSpace {
+  DrivenInSpace(const std::string& torque, const std::string& gravity = "[0, 0, -9.81]") {
+    const std::string text = "model: {dh: [[0, 90deg, 0.6, 0], [0.5, 0, 0, 0], [0.4, 0, 0, 0]]}\nstart: {q: [0, 0.5, -1]}\nduration: 0.5\nmethod: rk4\nstep: 0.001\ngravity: " +
+                             gravity + "\ntorque: " + torque + "\n";
+    scene = read_scene(folder.write("space.yaml", text));
+    simulation = prepare(scene, false);
+    for (int k = 0; k < 30; ++k) times.push_back(k / 60.0);
+    run = simulate(simulation, times);
+    bodies = made_bodies(simulation.chain);
+  }
+  Film film(bool with_bodies = true) const { return {scene, {{scene, simulation.chain, run, &simulation, with_bodies ? &bodies : nullptr}}, times, fonts}; }
+
+  TemporaryFolder folder;
+  Scene scene;
+  Simulation simulation;
+  std::vector<double> times;
+  Trajectory run;
+  BodyShapes bodies;
+  Fonts fonts;
+};
+
+TEST(TargetLayer, StandsPaleBehindBodiesInSpaceWithCoilsOverThem) {
+  DrivenInSpace driven("{pd: {kp: 20, kd: 2, q: [90deg, 60deg, 0]}}");
+  driven.scene.draw = {"chain", "target"};
+  const Picture picture = driven.film().frame(3);
+  std::optional<std::size_t> pale, whole, coil;
+  for (std::size_t i = 0; i < picture.items.size(); ++i) {
+    if (const auto* solids = std::get_if<Solids>(&picture.items[i].shape); solids && !solids->is_shadow) (solids->opacity < 1 ? pale : whole) = i;
+    if (const auto* wire = std::get_if<Trail>(&picture.items[i].shape); wire && !coil && wire->color == light().torque) coil = i;
+  }
+  ASSERT_TRUE(pale && whole && coil);
+  EXPECT_LT(*pale, *whole);
+  EXPECT_LT(*whole, *coil);
+  EXPECT_EQ(wires(picture, light().torque).size(), 3u);
+  // Negative control: without feedback there is neither.
+  const DrivenInSpace alone("[0, 0, 0]");
+  EXPECT_EQ(wires(alone.film().frame(3), light().torque).size(), 0u);
+  EXPECT_EQ(test::all_of<Solids>(alone.film().frame(3), [](const Solids& solids) { return !solids.is_shadow; }).size(), 1u);
+}
+
+TEST(SpringLayer, WindsSpiralsAboutTheAxesOfBodiesInSpace) {
+  const DrivenInSpace sprung("[\"-10*(q1-1)\", \"-60*(q2-0.5)\", \"-30*q3\"]");
+  EXPECT_EQ(wires(sprung.film().frame(3), light().torque).size(), 3u);
+  EXPECT_EQ(wires(sprung.film().frame(3), light().background).size(), 3u) << "each set off from its body";
+  EXPECT_EQ(wires(sprung.film(false).frame(3), light().background).size(), 0u);
+  EXPECT_EQ(torque_heads(sprung.film().frame(3)), 0) << "the spiral says how large the torque is";
 }
 
 TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -11,6 +12,7 @@
 #include "dynamics/kinematics.hpp"
 #include "mesh/primitives.hpp"
 #include "render/solid_bounds.hpp"
+#include "scene/text/read_scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace chainreel {
@@ -121,6 +123,34 @@ TEST_F(MadeBodies, TwoRobotsFarApartAreNotOneTrunk) {
                                joint_text("base", "a", "0 0 0") + joint_text("base", "b", "3 0 0", "1 0 0") + "</robot>",
                            false);
   for (const BodyShape& shape : made_bodies(chain).shapes) EXPECT_GT(shape.body, 0);
+}
+
+// An arm that turns about the vertical stands on the ground, on a plinth; about a level axis it hangs on nothing that is seen.
+TEST_F(MadeBodies, WhatTurnsAboutTheVerticalStandsOnAPlinth) {
+  const auto read_arm = [&](const std::string& axis) {
+    ModelOptions options;
+    options.gravity = {0, 0, -9.81};
+    return read_chain(folder_.write("arm.urdf", "<robot name=\"arm\"><link name=\"base\"/>" + link_text("a", 3, "0 0 0.3") + link_text("b", 1, "0.2 0 0") + link_text("c", 1, "0.2 0 0") +
+                                                    joint_text("base", "a", "0 0 0", axis) + joint_text("a", "b", "0 0 0.6") + joint_text("b", "c", "0.5 0 0") + "</robot>"),
+                      options);
+  };
+  const auto on_world = [](const BodyShapes& shapes) { return std::ranges::count_if(shapes.shapes, [](const BodyShape& shape) { return shape.body == 0; }); };
+  const Chain upright = read_arm("0 0 1"), level = read_arm("0 1 0");
+  const BodyShapes shapes = made_bodies(upright);
+  EXPECT_EQ(on_world(shapes), 1);
+  EXPECT_NEAR(extent_of(upright, shapes).lower.z(), 0, 1e-6) << "on the ground";
+  EXPECT_EQ(on_world(made_bodies(level)), 0);
+}
+
+TEST_F(MadeBodies, ChainsInNumbersHaveThemWhereTheirRodsAreNotAskedFor) {
+  const Scene scene = read_scene(folder_.write("numbers.yaml", "model: {dh: [[0, 90deg, 0.6, 0], [0.5, 0, 0, 0], [0.4, 0, 0, 0]]}\n"));
+  const Chain chain = read_chain(scene.model);
+  const auto count = [&](LinkShapes links) {
+    MeshShelf shelf;
+    return shapes_for({links, MeshUp::rviz, true, {}}, scene.model, chain, {}, shelf)->shapes.size();
+  };
+  EXPECT_EQ(count(LinkShapes::automatic), made_bodies(chain).shapes.size());
+  EXPECT_EQ(count(LinkShapes::visual), 3u) << "a rod a link";
 }
 
 TEST_F(MadeBodies, SlidersKeepTheirBars) {

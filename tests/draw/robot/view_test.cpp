@@ -47,7 +47,7 @@ TEST(View, PointsTheFirstLinkRightWhereXIsNotInThePlane) {
 }
 
 TEST(View, LooksAtSpatialChainsFromAboveWithZUp) {
-  Chain chain = test::model("rr");
+  Chain chain = test::model("rr", {0, 0, -9.81});
   chain.planar.reset();
   const Camera camera = view_of(chain);
   EXPECT_NEAR(camera.right.z(), 0, kViewRoundOff);
@@ -55,6 +55,20 @@ TEST(View, LooksAtSpatialChainsFromAboveWithZUp) {
   EXPECT_NEAR(camera.toward_viewer.z(), std::sin(20 * M_PI / 180), kViewRoundOff);
   EXPECT_GT(camera.up.z(), 0.9);
   EXPECT_LT((camera.right.cross(camera.up) - camera.toward_viewer).norm(), kViewRoundOff);
+}
+
+TEST(View, SpatialChainsStandUprightWhereGravityIsAlongAnAxis) {
+  CameraEntry level;
+  level.azimuth = level.elevation = 0;
+  const auto seen = [&](const Vector3d& gravity) {
+    Chain chain = test::model("rr", gravity);
+    chain.planar.reset();
+    return view_of(chain, level);
+  };
+  expect_axes(seen({0, 0, -9.81}), Vector3d::UnitX(), Vector3d::UnitZ());
+  expect_axes(seen({0, -9.81, 0}), Vector3d::UnitX(), Vector3d::UnitY());
+  expect_axes(seen({9.81, 0, 0}), Vector3d::UnitY(), -Vector3d::UnitX());
+  for (const Vector3d& aslant : {Vector3d(0, -7, -7), Vector3d(0, 0, 0)}) expect_axes(seen(aslant), Vector3d::UnitX(), Vector3d::UnitZ());
 }
 
 }  // namespace
