@@ -32,7 +32,7 @@ using Eigen::Vector3d;
 // More of them would hide the chain, and the legend says what they are.
 constexpr int kMostLabels = 4;         // of weights
 constexpr int kMostTorqueLabels = 6;
-constexpr double kArcOfLink = 0.25;    // an arc's radius at most, of the shortest link
+constexpr double kArcOfLink = 0.32;    // an arc's radius at most, of the shortest link
 constexpr double kSmallestArc = 0.5;   // of the size that arcs have elsewhere
 constexpr double kLinkOfWords = 1.5;    // of the height of letters: between shorter links there is no room for words
 constexpr double kKeepsName = 0.3;      // s of the film: for so long it may be small and keep its name
