@@ -129,7 +129,7 @@ TEST_P(WordsOfEveryScene, LieOnNothingAndDoNotJump) {
   // 20 rad/s, bring links to every place about them. The shortest axes of arm_ellipsoid turn behind the hand, and their numbers change
   // sides; its plot has them. What ties exert is an arrow for some tenths of a second, while the tie moves at its fastest: too short for
   // its name where it is not cut, whose plot tells it.
-  const std::map<std::string, double> most{{"rr_ellipse", 0.2}, {"rrr_torque", 0.25}, {"slider_crank", 0.16}, {"redundant", 0.2}, {"four_bar", 0.12}, {"four_bar_singular", 0.1}, {"arm_ellipsoid", 0.2}};
+  const std::map<std::string, double> most{{"rr_ellipse", 0.2}, {"rrr_torque", 0.25}, {"slider_crank", 0.16}, {"redundant", 0.22}, {"four_bar", 0.12}, {"four_bar_singular", 0.1}, {"arm_ellipsoid", 0.2}};
   const auto own = most.find(GetParam());
   EXPECT_LE(counts.left_out, (own == most.end() ? 0.05 : own->second) * counts.words);
 }

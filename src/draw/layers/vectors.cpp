@@ -404,8 +404,9 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   // Of one that stands beside its link a word beyond its tip is at what acts on the next joint, and would be taken for its name.
   if (vector.aside != 0) word.closed = std::move(places.beyond_tip);
   // Where the arrow grows and turns quicker than an eye follows, its number rides along with its place.
-  if (vector.peak) {
-    word.anchor = tail;
+  if (vector.peak) word.anchor = tail;
+  // Of arrows side by side each has half of the places.
+  if (vector.peak || vector.lane != 0) {
     // An arrow that is longer is near to all of these places.
     const double length = norm(arrow.v);
     if (length < kLeastUntied) word.tie = Tie{tail, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
