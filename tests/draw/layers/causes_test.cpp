@@ -499,7 +499,7 @@ TEST(ConstraintForces, HaveAScaleThatNeedlesDoNotDecideOn) {
     for (int k = 0; k < peaks; ++k) all[std::size_t(k)].size = peak;
     return all;
   };
-  EXPECT_DOUBLE_EQ(without_needles(100, sizes(2, 100, 8)), 6);
+  EXPECT_DOUBLE_EQ(without_needles(100, sizes(2, 100, 8)), 4.8);
   EXPECT_DOUBLE_EQ(without_needles(10, sizes(2, 10, 8)), 10) << "a fifth of it is seen";
   EXPECT_DOUBLE_EQ(without_needles(100, sizes(0, 100, 8)), 100) << "nothing acts else";
 }
