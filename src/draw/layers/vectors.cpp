@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "core/format.hpp"
 #include "draw/page/arrow.hpp"
@@ -25,7 +24,6 @@ constexpr double kOfMiddle = 2.4;         // of the middle size, whose arrow is 
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
 constexpr double kAboutPeak[] = {0.04, 0.08, 0.13, 0.19}, kLeastUntied = 0.1;  // units of H: where numbers of cut arrows stand about their places, and how short arrows then need a line
-constexpr std::size_t kAboutShare = 2;    // of the former for names of arrows side by side, whose lines would be taken for arrows farther off
 constexpr double kBesideSwept = 0.03, kFarthestSwept = 0.3;  // units of H: from a circle that a link sweeps, half of its width included; words farther off name nothing
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
 constexpr double kLeastOfTie = 0.034;     // units of H: those of ties begin at a joint's disc, beyond which a head, 0.024 long, is to be seen
@@ -412,7 +410,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
     // An arrow that is longer is near to all of these places.
     const double length = norm(arrow.v);
     if (length < kLeastUntied) word.tie = Tie{tail, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
-    for (const double off : std::span(kAboutPeak).first(vector.peak ? std::size(kAboutPeak) : kAboutShare))
+    for (const double off : kAboutPeak)
       for (const Rect& about : places_about(text, tail, off, {0, 1})) word.places.push_back(about);
   }
   if (vector.lane != 0) close_beyond_middle(word, place, vector.lane * normal_to(unit(arrow.v)));
