@@ -19,7 +19,7 @@ constexpr double kPlotsOfSpare = 0.6;  // ... of the height that a motion leaves
 constexpr double kHighestPlots = 0.34;
 constexpr double kNarrowMotion = 0.5;  // of its height, or of the page's width
 constexpr double kNarrowestPlots = 0.3;  // of the page's width, beside panels
-constexpr double kTitleAir = 1.1;      // times the least width of a panel's title
+constexpr double kTitleAir = 1.1;      // times the least width of a panel's title, on two lines
 constexpr double kFlatMotion = 0.7;      // of the scene's height
 constexpr double kWorthwhile = 0.02;   // ... of the width
 constexpr double kLeastOfWidth = 0.6;  // pages still narrower keep the words of this one
@@ -90,16 +90,18 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
 
 // Panels of a narrow motion, beside one another, stand beside their plots where they are no smaller there, each as wide as its motion and its title are.
 std::optional<Composition> with_plots_beside_panels(const Scene& page, const Shown& film, const Story& story, const Composition& below) {
-  const Point used = below.view.size_used();
+  // Panels above a plot are lower, and marks in them no smaller: whether the motion is narrow is seen beside it.
+  const auto is_narrower = [](const Composition& one, double part) { return one.view.size_used().x < part * one.view.size_used().y; };
   const bool may_stand = below.stage->has_cells() && page.layout == PageLayout::compare && !below.sheet.plots.empty() && !is_narrow(page) &&
-                         !(page.video.least_text > 0) && used.x < kNarrowMotion * used.y;
+                         !(page.video.least_text > 0) && is_narrower(below, 2 * kNarrowMotion);
   if (!may_stand) return std::nullopt;
   try {
     PlotRoom room;
     room.beside_panels = true;
     const Composition first = with_readable_words(page, film, story, room);
+    if (!is_narrower(first, kNarrowMotion)) return std::nullopt;
     const double count = double(first.view.cells.size());
-    const double panel = std::max(first.view.size_used().x + kKeptBeside, kTitleAir * first.sheet.widest_title(*first.stage));
+    const double panel = std::max(first.view.size_used().x + kKeptBeside, kTitleAir * first.sheet.narrowest_panel(*first.stage));
     const double spare = first.sheet.sheet.scene.width() - count * panel - (count - 1) * size::kGutter;
     room.beside = std::clamp(kPlotsBeside + spare / first.sheet.sheet.aspect, kNarrowestPlots, kWidestPlots);
     Composition beside = with_readable_words(page, film, story, room);

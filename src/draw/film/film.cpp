@@ -136,7 +136,7 @@ void Film::draw_panel(Picture& picture, std::size_t i, int k, bool is_still) con
 // At the edge of its cell, towards where the chain is at frame k, the first behind those that are shown. Where it is later an arrow would swap
 // ends with each swing of a run that oscillates ever wider.
 void Film::draw_way_out(Picture& picture, std::size_t i, int k) const {
-  constexpr double kLength = 0.11, kFromEdge = 0.012, kWide = 1.6;  // units of H; the last times an arrow's own size
+  constexpr double kLength = 0.11, kFromEdge = 0.002, kWide = 1.6;  // units of H; the last times an arrow's own size
   const Panel& panel = panels_[i];
   const Rect& r = view_.cells[i].scene;
   const Point middle{(r.x0 + r.x1) / 2, (r.y0 + r.y1) / 2}, there = panel.far_point(std::min(k, panel.motion().samples() - 1));

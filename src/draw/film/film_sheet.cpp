@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "draw/film/exact_curve.hpp"
+#include "draw/page/panel.hpp"
 #include "draw/page/wrapped_words.hpp"
 #include "picture/formula_words.hpp"
 #include "picture/thin_points.hpp"
@@ -277,6 +278,16 @@ double FilmSheet::widest_title(const Stage& stage) const {
   for (const StagedRun& motion : stage.motions)
     widest = std::max(widest, lay_out_words(stage.fonts, motion.title(), style).advance);
   return widest;
+}
+
+double FilmSheet::narrowest_panel(const Stage& stage) const {
+  constexpr double kNarrower = 0.97;  // from trial to trial
+  const double whole = widest_title(stage);
+  double width = whole;
+  while (kNarrower * width > whole / kTitleLines && fit_titles(stage, kNarrower * width, kTitleLines, HUGE_VAL)) width *= kNarrower;
+  if (!has_notes(stage)) return width;
+  const TextStyle style{Face::label, scaled(kSmallestText, stage.page.text_scale), stage.theme.ink, Align::left};
+  return std::max(width, lay_out_text(stage.fonts, kLeftThePicture + time_text(stage.times.back()) + ",", style).advance);
 }
 
 std::optional<double> FilmSheet::row_of_titles(const Stage& stage, double width) const {

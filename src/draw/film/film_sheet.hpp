@@ -30,6 +30,8 @@ struct FilmSheet {
 
   // Of the panels' titles in the smallest letters, units of H.
   double widest_title(const Stage& stage) const;
+  // The least width of panels in which they stand on two lines, and below them when a run left the picture.
+  double narrowest_panel(const Stage& stage) const;
   // Height of the row of titles above panels so wide, of two lines where one has no room; nothing where two have none.
   std::optional<double> row_of_titles(const Stage& stage, double width) const;
   // The titles of panels in cells of their own. Throws Error (bad input) where one does not fit.

@@ -153,7 +153,7 @@ std::string Panel::note(int k, int events) const {
   if (!left || k <= last_) return event_note(k, events);
   const bool diverged = motion_->trajectory().status == RunStatus::diverged, gone = left_ || diverged;
   // A chain on a pin grows wild in its place.
-  const std::string text = (left_ ? "left the picture at " : diverged ? "diverged at " : "ended at ") + time_text(*left);
+  const std::string text = (left_ ? kLeftThePicture : diverged ? "diverged at " : "ended at ") + time_text(*left);
   return gone && events > 0 ? text + away_note() : text;
 }
 

@@ -49,6 +49,7 @@ struct PanelView {
 
 // A motion as a camera sees it: until when it is in the picture, and where its end effector goes on the page.
 inline constexpr char kBetweenEvents[] = ";  ";
+inline constexpr char kLeftThePicture[] = "left the picture at ";
 inline constexpr char kBeforeAway[] = ", up to ";  // how far off a run comes to be that left the picture
 
 class Panel {
