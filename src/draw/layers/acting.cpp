@@ -11,31 +11,22 @@
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/layers/reactions.hpp"
+#include "draw/layers/torque_run.hpp"
 #include "draw/layers/vectors.hpp"
 #include "dynamics/kinematics.hpp"
 #include "picture/point.hpp"
 #include "sim/drive/pushes.hpp"
-#include "sim/torques_along.hpp"
 
 namespace chainreel {
 namespace {
-
-// How long sample k stands for what is moving, s: up to the next one, and the last one like that before it.
-double lasts(const std::vector<double>& t, std::size_t k) {
-  if (t.size() < 2) return 0;
-  const std::size_t from = std::min(k, t.size() - 2);
-  return t[from + 1] - t[from];
-}
 
 using Eigen::Vector3d;
 
 // More of them would hide the chain, and the legend says what they are.
 constexpr int kMostLabels = 4;         // of weights
-constexpr int kMostTorqueLabels = 6;
 constexpr double kArcOfLink = 0.32;    // an arc's radius at most, of the shortest link
 constexpr double kSmallestArc = 0.5;   // of the size that arcs have elsewhere
 constexpr double kLinkOfWords = 1.5;    // of the height of letters: between shorter links there is no room for words
-constexpr double kKeepsName = 0.3;      // s of the film: for so long it may be small and keep its name
 
 // The vectors of a motion at sample k, after compute_kinematics there.
 using VectorsAt = std::function<std::vector<WorldVector>(const StagedRun& motion, const Workspace& ws, int k)>;
@@ -291,75 +282,6 @@ std::vector<WorldVector> weights_at(const Chain& chain, const Workspace& ws) {
   }
   return vectors;
 }
-
-// The torques of a run at its samples, and which of them are to be seen.
-class TorqueRun {
- public:
-  TorqueRun(const Stage& stage, const StagedRun& motion)
-      : nv_(std::size_t(motion.chain().nv)),
-        tau_(torques_along(*motion.simulation(), motion.trajectory())),
-        shown_(nv_),
-        rings_(nv_),
-        extremes_(nv_),
-        named_(nv_) {
-    const std::vector<double>& t = motion.trajectory().t;
-    for (std::size_t at = 0; at < tau_.size(); ++at)
-      if (std::isfinite(tau_[at]) && tau_[at] != 0) shown_[at % nv_] = true;
-    for (const Device& device : devices_of(stage, motion))
-      if (device.is_all_of_it()) shown_[std::size_t(device.drive.freedom)] = false;
-    // Pictures to be laid over others have no words but those that were asked for.
-    labelled_ = !is_transparent(stage.page) && std::count(shown_.begin(), shown_.end(), true) <= kMostTorqueLabels;
-    std::vector<Magnitude> magnitudes;
-    for (std::size_t at = 0; at < tau_.size(); ++at) magnitudes.push_back({std::abs(tau_[at]), lasts(t, at / nv_)});
-    const double full = full_magnitude(std::move(magnitudes));
-    if (!shows_any()) {
-      tau_ = {};  // long films of motions without torques need no room for them
-      return;
-    }
-    const std::vector<double> curve = torques_along(*motion.simulation(), motion.curve_run());
-    const int keeps_name = int(std::lround(kKeepsName * stage.page.video.fps.value()));
-    for (std::size_t i = 0; i < nv_; ++i) {
-      if (!shown_[i]) continue;
-      named_[i].resize(t.size());
-      std::vector<bool> rests(t.size());
-      for (std::size_t k = 0; k < t.size(); ++k) rests[k] = !(std::abs(tau_[k * nv_ + i]) >= kRestBelow * full);
-      rings_[i] = rings_along(t, rests);
-      extremes_[i] = extremes_near(of_freedom(tau_, i), t, of_freedom(curve, i), motion.curve_run().t);
-      for (int k = 0, named = -1; k < int(t.size()); ++k) {
-        if (!(std::abs(tau_[std::size_t(k) * nv_ + i]) > full * kLeastNamed * kWidestTurn / kTurnOfFull)) continue;
-        for (int between = named + 1; named >= 0 && k - named <= keeps_name && between < k; ++between) named_[i][std::size_t(between)] = true;
-        named = k;
-      }
-    }
-  }
-
-  const double* at(int k) const { return tau_.data() + std::size_t(k) * nv_; }
-  bool shows_any() const { return std::ranges::any_of(shown_, std::identity()); }
-  // Whether anything ever acts at the freedom, and no spring stands for it.
-  bool shows(int freedom) const { return shown_[std::size_t(freedom)]; }
-  double ring(int freedom, int k) const { return rings_[std::size_t(freedom)][std::size_t(k)]; }
-  // Whether it is too small for a name, but only for a moment.
-  bool keeps_name(int freedom, int k) const { return named_[std::size_t(freedom)][std::size_t(k)]; }
-  double extreme(int freedom, int k) const { return extremes_[std::size_t(freedom)][std::size_t(k)]; }
-  bool is_labelled() const { return labelled_; }
-  std::string word(int freedom) const { return nv_ == 1 ? "tau" : "tau_{" + std::to_string(freedom + 1) + "}"; }
-
- private:
-  std::vector<double> of_freedom(const std::vector<double>& tau, std::size_t i) const {
-    std::vector<double> own;
-    own.reserve(tau.size() / nv_);
-    for (std::size_t at = i; at < tau.size(); at += nv_) own.push_back(tau[at]);
-    return own;
-  }
-
-  std::size_t nv_;
-  std::vector<double> tau_;                 // nv a sample
-  std::vector<bool> shown_;                 // a freedom
-  std::vector<std::vector<double>> rings_;  // a freedom that is shown, a sample
-  std::vector<std::vector<double>> extremes_;  // ... the same
-  std::vector<std::vector<bool>> named_;  // ... the same
-  bool labelled_ = true;
-};
 
 // How far from its joint a body of a planar chain reaches: to its frames, and to the joints that it bears.
 double reach_of(const Chain& chain, const Workspace& ws, int body) {

@@ -131,6 +131,12 @@ double magnitude_below(std::vector<Magnitude> magnitudes, double share) {
 
 }  // namespace
 
+double lasts(const std::vector<double>& t, std::size_t k) {
+  if (t.size() < 2) return 0;
+  const std::size_t from = std::min(k, t.size() - 2);
+  return t[from + 1] - t[from];
+}
+
 double full_magnitude(std::vector<Magnitude> magnitudes) {
   return magnitude_below(std::move(magnitudes), kShareBelowFull);
 }

@@ -86,6 +86,8 @@ struct Magnitude {
 // What 95 % of the motion's time are at most, of those that are more than round-off beside the largest; 0 where there is none: the
 // full one. Where all weights are zero, as of a picture by itself, they count alike.
 double full_magnitude(std::vector<Magnitude> magnitudes);
+// How long sample k stands for what is moving, s: up to the next one, and the last one like that before it.
+double lasts(const std::vector<double>& t, std::size_t k);
 // The same of forces that have needles, as ties have near singular poses: where what `full` makes of the sizes of most of the time are dots, 2.4
 // times the middle one. What is larger is cut, and has its number.
 double without_needles(double full, std::vector<Magnitude> largest);
