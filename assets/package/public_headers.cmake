@@ -18,4 +18,4 @@ set(sim_headers
   sim/system/constrained_chain.hpp sim/system/constraint_plan.hpp sim/system/even_sides.hpp sim/system/trajectory.hpp
   sim/watch/events.hpp
   sim/watch/first_instant.hpp)
-set(film_headers app/library/scene_run.hpp core/image.hpp)
+set(film_headers app/library/scene_run.hpp core/image.hpp core/large_memory.hpp)

@@ -18,6 +18,7 @@
 #include "draw/layers/fading.hpp"
 #include "draw/layers/ground_plane.hpp"
 #include "draw/page/mark_labels.hpp"
+#include "picture/place_picture.hpp"
 #include "draw/page/panel_grid.hpp"
 #include "draw/page/word_plan.hpp"
 #include "draw/robot/chain.hpp"
