@@ -32,9 +32,9 @@ constexpr Name kBackends[] = {{"auto", "for films OSMesa if it is there, else EG
 
 std::atomic<GlBackend> chosen = GlBackend::automatic;
 
-// What the library, the compiler in it and a first context map (185 MB were measured), and some more: threads that start
-// meanwhile map 128 MiB for a moment, of which they keep 64, for what they allocate.
-constexpr std::size_t kAddressSpace = std::size_t(320) << 20;  // bytes
+// What the library, the compiler in it and a first context map (185 MB were measured), and some more: each of two
+// threads that start meanwhile maps 128 MiB for a moment, of which it keeps 64, for what it allocates.
+constexpr std::size_t kAddressSpace = std::size_t(420) << 20;  // bytes
 
 // Where it is short, the library does not say so but crashes. Mapped without access, it takes no memory, so that only a
 // limit of the address space can refuse it.

@@ -274,7 +274,7 @@ TEST(Fonts, ThatCannotBeOpenedAreToldAsFiles) {
 TEST(Memory, ThatIsShortIsExitSeven) {
   if (kIsSanitized) GTEST_SKIP() << "a sanitizer's shadow takes terabytes of address space";
   int refused = 0, drawn = 0;
-  for (int limit = 100; limit <= 520; limit += 20) {
+  for (int limit = 100; limit <= 640; limit += 20) {
     const TemporaryFolder folder;
     const ProgramResult result = shell("ulimit -v " + std::to_string(limit * 1000) +
                                            "; \"$0\" --gl osmesa snapshot assets/scenes/pp_free.yaml --width 640 --height 360 -o \"$1\"/a.png", folder);

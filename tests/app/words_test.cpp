@@ -60,6 +60,9 @@ bool of_one_formula(const Written& a, const Written& b) {
   return a.run.face == Face::math && b.run.face == Face::math && b.item - a.item <= 3;
 }
 
+// Large words are that much smaller at most where plots would not keep their frames, which is said (draw/film/compose).
+constexpr double kHeldForPlots = 0.85;
+
 // What is wrong with the words of a picture; nothing where all is well.
 std::vector<std::string> faults_of(const Picture& picture, double text_scale) {
   std::vector<std::string> faults;
@@ -67,7 +70,7 @@ std::vector<std::string> faults_of(const Picture& picture, double text_scale) {
   const Written* title = nullptr;
   for (const Written& w : words)
     if (w.run.face == Face::label_bold && w.clip < 0 && (!title || w.ink.y0 > title->ink.y0)) title = &w;
-  const double least = kSmallestText * std::max(text_scale, 1.0);
+  const double least = kSmallestText * std::max(kHeldForPlots * text_scale, 1.0);
   for (std::size_t i = 0; i < words.size(); ++i) {
     const Written& w = words[i];
     const double hanging = kDescent * w.run.size;

@@ -78,7 +78,7 @@ class Films(FolderTest):
         code = f"""
 import warnings, chainreel as cr
 warnings.simplefilter("error")
-run = cr.Scene({self.scene!r}, torque=["sin(t)", "-qd2"], plot=["energy"], set={{"events": [{{"when": "t - 9", "name": "never"}}],
+run = cr.Scene({self.scene!r}, torque=["sin(t)", "-qd2"], plot=["energy"], layout="scene-below", set={{"events": [{{"when": "t - 9", "name": "never"}}],
                                      "slow_motion": [{{"event": "never", "from": 0, "until": 0.1, "speed": 0.5}}]}}).run()
 for make in (lambda: run.film({self.path("slow.mp4")!r}), lambda: run.frame(0.1, 120, 60)):
     try:
