@@ -16,8 +16,6 @@ constexpr double kHeldBeyond = 1;       // of the rest's range: a peak that is a
 constexpr std::size_t kFewNeedles = 6;  // of a curve: more are how it is
 constexpr double kHeadLong = 0.018, kHeadWide = 0.016;  // units of H
 constexpr double kBesideNeedle = 0.006, kAboveEdge = 0.007, kAirOfNumber = 0.003;
-constexpr int kMostRows = 4;            // of numbers above one another
-constexpr double kRowOfNumbers = 1.3;   // of the em
 constexpr double kSamePlace = 0.004;    // units of H: heads nearer than that are one
 
 // The least interval that holds a curve for so much of its time; a point stands for half of the way to its neighbours.
@@ -124,34 +122,16 @@ bool crosses(const PlotFrame& frame, const std::vector<StripCurve>& curves, cons
   return false;
 }
 
-// How far a box is from the nearest other needle's head.
-double clearance(const PlotFrame& frame, const std::vector<Needle>& needles, const Needle& own, const Rect& box) {
-  double least = HUGE_VAL;
-  for (const Needle& other : needles)
-    if (const double x = frame.at_x(other.peak.x); std::abs(x - frame.at_x(own.peak.x)) > kSamePlace && other.is_up == own.is_up)
-      least = std::min(least, std::max({box.x0 - x, x - box.x1, 0.0}));
-  return least;
-}
-
-// Beside its head, on the side where no other head is as near, or farther in.
-std::optional<Rect> place_of_number(const PlotFrame& frame, const std::vector<StripCurve>& curves, const std::vector<Needle>& needles, const Needle& needle,
-                                    const TextLine& number, double em, const std::vector<Rect>& taken) {
+// Beside its head, on the side `way`; nothing where it would lie on a curve, another head or another number.
+std::optional<Rect> place_of_number(const PlotFrame& frame, const std::vector<StripCurve>& curves, const Needle& needle, double way, const TextLine& number,
+                                    const std::vector<Rect>& taken) {
   const double x = frame.at_x(needle.peak.x), inward = needle.is_up ? -1 : 1;
-  const double high = number.box.height(), wide = number.advance;
-  for (int row = 0; row < kMostRows; ++row)
-    for (const double beside : {kHeadWide / 2 + kBesideNeedle, kHeadWide / 2 + 3 * kBesideNeedle}) {
-      std::optional<Rect> best;
-      for (const double way : {1.0, -1.0}) {
-        const double x0 = way > 0 ? x + beside : x - beside - wide;
-        const double middle = edge_of(frame, needle) + inward * (kAboveEdge + high / 2 + row * kRowOfNumbers * em);
-        const Rect box{x0, middle - high / 2, x0 + wide, middle + high / 2}, with_air = widened(box, kAirOfNumber);
-        if (!is_within(with_air, frame.box) || crosses(frame, curves, with_air)) continue;
-        if (std::ranges::any_of(taken, [&](const Rect& one) { return overlap(one, with_air); })) continue;
-        if (!best || clearance(frame, needles, needle, box) > clearance(frame, needles, needle, *best)) best = box;
-      }
-      if (best) return best;
-    }
-  return std::nullopt;
+  const double high = number.box.height(), beside = kHeadWide / 2 + kBesideNeedle;
+  const double x0 = way > 0 ? x + beside : x - beside - number.advance, middle = edge_of(frame, needle) + inward * (kAboveEdge + high / 2);
+  const Rect box{x0, middle - high / 2, x0 + number.advance, middle + high / 2}, with_air = widened(box, kAirOfNumber);
+  if (!is_within(with_air, frame.box) || crosses(frame, curves, with_air)) return std::nullopt;
+  if (std::ranges::any_of(taken, [&](const Rect& one) { return overlap(one, with_air); })) return std::nullopt;
+  return box;
 }
 
 }  // namespace
@@ -171,32 +151,38 @@ std::string number_of(const Needle& needle, const std::string& unit) {
 
 bool draw_needle_numbers(Picture& picture, const PlotFrame& frame, const std::vector<Needle>& needles, const std::vector<StripCurve>& curves, const std::string& unit,
                          const PlotStyle& style) {
-  std::vector<Needle> farthest_first = needles;
-  std::ranges::stable_sort(farthest_first, std::greater(), [](const Needle& one) { return std::abs(one.peak.y); });
   struct Said {
     double x;
     std::string number;
+    TextLine line;
+    Rect place;
   };
-  std::vector<Said> said;
-  std::vector<Rect> taken;
   // No number lies on another one's head.
+  std::vector<Rect> heads;
   for (const Needle& needle : needles) {
     const double x = frame.at_x(needle.peak.x), y = edge_of(frame, needle);
-    taken.push_back({x - kHeadWide / 2, y - kHeadLong, x + kHeadWide / 2, y + kHeadLong});
+    heads.push_back({x - kHeadWide / 2, y - kHeadLong, x + kHeadWide / 2, y + kHeadLong});
   }
-  const double em = style.text(size::kTick);
-  for (const Needle& needle : farthest_first) {
-    const double x = frame.at_x(needle.peak.x);
-    const std::string number = number_of(needle, unit);
-    if (std::ranges::any_of(said, [&](const Said& one) { return std::abs(one.x - x) < kSamePlace && one.number == number; })) continue;
-    const TextLine line = lay_out_text(*style.fonts, number, {Face::label, em, style.theme->muted, Align::left});
-    const std::optional<Rect> place = place_of_number(frame, curves, needles, needle, line, em, taken);
-    if (!place) continue;
-    said.push_back({x, number});
-    taken.push_back(*place);
-    draw_text(picture, line, {place->x0, place->y0 - line.box.y0});
+  // All on one side of their heads: else one would be read as that of a neighbour.
+  for (const double way : {1.0, -1.0}) {
+    std::vector<Said> said;
+    std::vector<Rect> taken = heads;
+    const bool all_stand = std::ranges::all_of(needles, [&](const Needle& needle) {
+      const double x = frame.at_x(needle.peak.x);
+      const std::string number = number_of(needle, unit);
+      if (std::ranges::any_of(said, [&](const Said& one) { return std::abs(one.x - x) < kSamePlace && one.number == number; })) return true;
+      TextLine line = lay_out_text(*style.fonts, number, {Face::label, style.text(size::kTick), style.theme->muted, Align::left});
+      const std::optional<Rect> place = place_of_number(frame, curves, needle, way, line, taken);
+      if (!place) return false;
+      taken.push_back(*place);
+      said.push_back({x, number, std::move(line), *place});
+      return true;
+    });
+    if (!all_stand) continue;
+    for (const Said& one : said) draw_text(picture, one.line, {one.place.x0, one.place.y0 - one.line.box.y0});
+    return true;
   }
-  return needles.empty() || (!said.empty() && said.front().number == number_of(farthest_first.front(), unit));
+  return false;
 }
 
 }  // namespace chainreel

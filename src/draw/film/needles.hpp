@@ -25,8 +25,8 @@ std::vector<Needle> needles_of(const std::vector<StripCurve>& curves, const Axis
 void draw_needle_heads(Picture& picture, const PlotFrame& frame, const std::vector<Needle>& needles, const std::vector<StripCurve>& curves, double t, double opacity);
 // "-260 N"
 std::string number_of(const Needle& needle, const std::string& unit);
-// That of each beside its head, the farthest first; one that has no room beside curves and other numbers has none. Of equal ones in one place one. Whether
-// the farthest is told.
+// That of each beside its head, all on one side of theirs, where all have room beside curves and one another; else none. Of equal ones in one
+// place one. Whether they are told.
 bool draw_needle_numbers(Picture& picture, const PlotFrame& frame, const std::vector<Needle>& needles, const std::vector<StripCurve>& curves, const std::string& unit,
                          const PlotStyle& style);
 

@@ -87,7 +87,7 @@ std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& 
   const std::string& own = plot.curves[curve].name;
   const bool is_symbol = !symbol_of(plot.quantity).empty() || is_of_ellipse(plot.quantity);
   const std::string name = is_symbol ? "$" + own + "$" : own;
-  if (runs <= 2 || run.is_named_by_colour) return runs == 1 || plot.curves.size() > 1 ? name : "";
+  if (runs <= 2) return runs == 1 || plot.curves.size() > 1 ? name : "";
   const std::string& title = run.title;
   return plot.curves.size() > 1 ? name + ", " + title : title;
 }
@@ -254,8 +254,8 @@ void PlotStrip::draw_static(Picture& picture) const {
   const std::string unit = unit_in(data_.title);
   std::string note = data_.note;
   // What has no room in the plot stands above it.
-  if (!draw_needle_numbers(picture, frame_, needles_, data_.curves, unit, style_) && note.empty())
-    note = "to " + number_of(std::ranges::max(needles_, {}, [](const Needle& one) { return std::abs(one.peak.y); }), unit);
+  if (!draw_needle_numbers(picture, frame_, needles_, data_.curves, unit, style_))
+    note += (note.empty() ? "to " : ", to ") + number_of(std::ranges::max(needles_, {}, [](const Needle& one) { return std::abs(one.peak.y); }), unit);
   draw_note(picture, note);
   std::vector<EndLabel> ends;
   for (const StripCurve& curve : data_.curves) {
@@ -310,7 +310,7 @@ std::string told_number(double value, double span) {
   const int decimals = std::max(0, int(std::ceil(-std::log10(span / kToldOfSpan) - kSameEnd)));
   const std::string size = decimals <= kMostDecimals ? format_fixed(std::abs(value), decimals) : value != 0 ? format_power(std::abs(value)) : "0";
   const bool is_zero = size.find_first_of("123456789") == std::string::npos;
-  return (is_zero ? "" : value < 0 ? "\u2212" : "+") + size;
+  return (!is_zero && value < 0 ? "\u2212" : "") + size;
 }
 
 // Where titles of panels name the curves, those of energies end with what the runs have made of it.
@@ -328,8 +328,7 @@ void add_last_energies(const std::vector<StripRun>& runs, std::size_t i, StripDa
   if (!(span > 0)) return;
   data.ends_in_numbers = true;
   for (StripCurve& curve : data.curves)
-    if (curve.decides && !curve.points.empty() && std::isfinite(curve.points.back().y))
-      curve.label = told_number(curve.points.back().y, span) + unit_in(data.title);
+    curve.label = curve.decides && !curve.points.empty() && std::isfinite(curve.points.back().y) ? told_number(curve.points.back().y, span) + unit_in(data.title) : "";
 }
 
 // Of two curves in one place the later one has gaps that show the other.

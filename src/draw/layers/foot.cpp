@@ -96,7 +96,8 @@ class FootLayer : public Layer {
   bool has_words() const override { return !runs_.empty(); }
 
   void write(SheetText& text) const override {
-    constexpr double kLegend = 0.045;  // units of H, at most
+    constexpr double kDashedInLegend = 0.06;  // units of H: two dashes and a head; its entry has no number, which would be a scale
+constexpr double kLegend = 0.045;  // units of H, at most
     if (!weight_) return;
     // On few pixels words take more than what they speak of: marks that are known, or named in the scene, have none below it.
     const bool is_crowded = !(page_->video.least_text > 0) && page_->text_scale > kCrowdedBeyond;
@@ -106,7 +107,7 @@ class FootLayer : public Layer {
                            "ground reaction " + format_shortest(force) + " N", kAfterScales});
     text.scales.push_back({ScaleEntry::Mark::disc, 2 * kPressure, theme_->constraint, "centre of pressure", kAfterScales + 1});
     const bool is_pulled = std::ranges::any_of(runs_, [](const auto& one) { return std::ranges::any_of(one.second.answers, [](const FootHold& hold) { return hold.pull > 0; }); });
-    if (is_pulled && !is_crowded) text.scales.push_back({ScaleEntry::Mark::dashed_arrow, arrow_ * force / *weight_, theme_->constraint, "holds the foot", kAfterScales + 2});
+    if (is_pulled && !is_crowded) text.scales.push_back({ScaleEntry::Mark::dashed_arrow, kDashedInLegend, theme_->constraint, "holds the foot", kAfterScales + 2});
   }
 
   void measure(const Sight& sight, FitBox& box) const override {

@@ -333,16 +333,16 @@ TEST(PlotStrip, TwoRunsBearTheColoursOfTheirTitlesMoreAreNamed) {
   EXPECT_EQ(three.curves[2].label, "third");
 }
 
-// What a title in its colour says need not be said again: of energies the end tells what has become of them, of others nothing.
+// What a title in its colour says need not be said again where the end tells what has become of an energy.
 TEST(PlotStrip, EnergiesOfRunsThatTitlesNameEndInNumbers) {
   std::vector<StripRun> runs{run_of("kept", false, {-20.8, -20.8}), run_of("gained", false, {-20.8, 0.71}), run_of("wild", true, {-20.8, 1e12})};
   for (StripRun& run : runs) run.is_named_by_colour = true;
   const StripData heights = strip_data(runs, 0, 1, light_theme());
-  for (const StripCurve& curve : heights.curves) EXPECT_EQ(curve.label, "");
+  for (std::size_t i = 0; i < runs.size(); ++i) EXPECT_EQ(heights.curves[i].label, runs[i].title);
   for (StripRun& run : runs) run.plots[0].quantity = PlotQuantity::energy_error, run.plots[0].title = "energy error [J]";
   const StripData energies = strip_data(runs, 0, 1, light_theme());
   EXPECT_EQ(energies.curves[0].label, "\u221220.8 J");
-  EXPECT_EQ(energies.curves[1].label, "+0.7 J");
+  EXPECT_EQ(energies.curves[1].label, "0.7 J");
   EXPECT_EQ(energies.curves[2].label, "");
   runs[1].is_named_by_colour = false;  // where colours do not tell them apart, their names do
   EXPECT_EQ(strip_data(runs, 0, 1, light_theme()).curves[1].label, "gained");
