@@ -191,7 +191,10 @@ std::vector<TextLine> Film::note_lines(const Panel& panel, int k, const Rect& ro
     std::vector<std::string> parts{note};
     if (const auto broken = broken_note(note, is_long); broken && row.height() > 1.5 * kNotePitch * style.size) parts = {broken->first, broken->second};
     lines.clear();
-    for (const std::string& part : parts) lines.push_back(fit_text(stage_->fonts, part, style, row.width(), text_scale));
+    TextStyle alike = style;  // as small as the longest of them needs
+    for (const std::string& part : parts)
+      if (const TextLine line = fit_text(stage_->fonts, part, style, row.width(), text_scale); !line.runs.empty()) alike.size = std::min(alike.size, line.runs.front().size);
+    for (const std::string& part : parts) lines.push_back(fit_text(stage_->fonts, part, alike, row.width(), text_scale));
     const double wide = widest(lines);
     if (wide <= row.width() + kRoundOff) return lines;
     TextStyle small = style;
