@@ -259,7 +259,9 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const Trajector
   return notes;
 }
 
-static std::string layers_left_out(const std::vector<std::string>& layers, const Scene& page) {
+namespace {
+
+std::string layers_left_out(const std::vector<std::string>& layers, const Scene& page) {
   if (page.video.least_text > 0)
     return page.name + ": " + joined(layers) + ": not drawn, as nothing is written below 7 pt and the page has no room for more: take "
            "a larger --height-mm or --width-mm";
@@ -268,6 +270,8 @@ static std::string layers_left_out(const std::vector<std::string>& layers, const
   return page.name + ": " + joined(layers) + ": not drawn, as no word may be lower than " + format_shortest(kLeastWordPixels) +
          " px" + where + " and " + std::to_string(page.video.width) + " x " + std::to_string(page.video.height) + " px have no room for more";
 }
+
+}  // namespace
 
 std::vector<std::string> left_out_words(const std::vector<std::string>& layers, double held_text_scale, const Scene& page) {
   std::vector<std::string> lines;

@@ -97,7 +97,7 @@ class FootLayer : public Layer {
 
   void write(SheetText& text) const override {
     constexpr double kDashedInLegend = 0.06;  // units of H: two dashes and a head; its entry has no number, which would be a scale
-constexpr double kLegend = 0.045;  // units of H, at most
+    constexpr double kLegend = 0.045;  // units of H, at most
     if (!weight_) return;
     // On few pixels words take more than what they speak of: marks that are known, or named in the scene, have none below it.
     const bool is_crowded = !(page_->video.least_text > 0) && page_->text_scale > kCrowdedBeyond;
