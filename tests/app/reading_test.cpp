@@ -121,6 +121,16 @@ TEST(Reading, LargeWordsTakeTheirRoomFromTheSceneNotFromPlots) {
   }
 }
 
+// The frames of plots do not yield to large words, but that is no reason to leave out a plot which the motion has room for.
+TEST(Reading, LargeWordsKeepThePlotThatNobodyAskedFor) {
+  for (const std::string name : {"redundant", "rr_torque"}) {
+    for (const std::string text_scale : {"1", "1.5", "2"})
+      EXPECT_GT(area_of_plot(Page(name, {"video.width=960", "video.height=540", "text_scale=" + text_scale}).picture), 0.1) << name << text_scale;
+    // Negative control: a scene alone has none.
+    EXPECT_FALSE(std::isfinite(area_of_plot(Page(name, {"layout=scene"}).picture))) << name;
+  }
+}
+
 // The strongest contrast of a word's pixels with what lies there without it: that of its stems.
 double contrast_of_word(const Image& with, const Image& without, const Rect& box, int height) {
   double most = 1;

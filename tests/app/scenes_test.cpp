@@ -114,7 +114,7 @@ TEST_P(EveryScene, ShowsTheGripperWhereThePhysicsHasItAndNotElsewhere) {
   // Negative control: some disc's widths away there is no gripper.
   const Color disc = light_theme().ink;
   for (const int panel : moving_panels(kFrame)) {
-    const Eigen::Vector3d elsewhere = Eigen::Vector3d(0.005, 0.06, 0) / film_.camera(panel).scale;
+    const Eigen::Vector3d elsewhere = Eigen::Vector3d(0.012, 0.07, 0) / film_.camera(panel).scale;
     EXPECT_NE(pixel_at(picture, panel, gripper(panel, kFrame) + elsewhere), (Pixel{disc.r, disc.g, disc.b, 255}))
         << panel;
   }

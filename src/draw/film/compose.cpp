@@ -192,10 +192,14 @@ Composition with_frames_kept(Composition large, const Composition& usual, const 
   return large;
 }
 
+bool has_large_words(const Scene& page) {
+  return page.text_scale > 1 && !(page.video.least_text > 0);
+}
+
 // Where words are larger than usual the scene yields the room that they take, not the plots; they are as large as leaves it enough.
 Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story, bool is_ours = false) {
   Composition asked = with_spare_room(page, film, story, is_ours);
-  if (!(page.text_scale > 1) || page.video.least_text > 0 || asked.sheet.plots.empty()) return asked;
+  if (!has_large_words(page) || asked.sheet.plots.empty()) return asked;
   Scene words = page;
   words.text_scale = 1;
   Composition usual = with_spare_room(words, film, story, is_ours);
@@ -253,8 +257,12 @@ Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
     with_plot.layout = layout;
     try {
       Composition told = with_wide_plots(with_plot, film, story, true);
+      const double least = kept * plain.view.camera.scale;
+      // What large words take from the scene so that the plot keeps its frame is no reason to leave the plot out.
+      const bool keeps_size = told.view.camera.scale >= least ||
+                              (has_large_words(page) && with_spare_room(with_plot, film, story, true).view.camera.scale >= least);
       // Words go in one order: fewer of them are some of those that go else.
-      if (told.left_out.size() > plain.left_out.size() || !(told.view.camera.scale >= kept * plain.view.camera.scale)) continue;
+      if (told.left_out.size() > plain.left_out.size() || !keeps_size) continue;
       if (page.video.least_text > 0 && page.plot.empty() && !lack_of_room(told).what.empty()) continue;
       if (page.plot.empty() && !notes_have_room(told)) continue;
       plain = std::move(told);
