@@ -6,12 +6,15 @@
 
 #include "draw/layers/layer.hpp"
 #include "draw/page/arrow.hpp"
+#include "draw/page/word_plan.hpp"
 #include "draw/robot/chain_fit.hpp"
 #include "picture/point.hpp"
 
 namespace chainreel {
 
 std::unique_ptr<const Layer> make_layer_ellipse_inside(const Stage& stage);
+std::unique_ptr<const Layer> make_layer_joint_springs(const Stage& stage);
+std::unique_ptr<const Layer> make_layer_slider_springs(const Stage& stage);
 
 namespace {
 
@@ -62,6 +65,9 @@ class Field : public Layer {
         text_(lay_out_math(stage.fonts, "g",
                            {Face::math, scaled(size::kAxis, stage.page.text_scale), stage.theme.force, Align::left})) {
     if (stage.shows("ellipse")) ellipse_ = make_layer_ellipse_inside(stage);
+    if (!stage.shows("springs")) return;
+    springs_.push_back(make_layer_slider_springs(stage));
+    springs_.push_back(make_layer_joint_springs(stage));
   }
 
   void draw_once(Picture& picture, const Panel& panel) const override {
@@ -91,7 +97,7 @@ class Field : public Layer {
   }
 
  private:
-  // Where the arrow begins, so that no pose comes near `ink` about there: beside the motion, on a level with its upper part,
+  // Where the arrow begins, so that no pose and no spring comes near `ink` about there: beside the motion, on a level with its upper part,
   // else in a corner of the panel; off ellipses, if it can; nothing where the motion fills it all.
   std::optional<Point> free_place(const Panel& panel, const Rect& ink) const {
     const Rect& area = panel.area();
@@ -151,17 +157,23 @@ class Field : public Layer {
     return extent.value_or(panel.area());
   }
 
-  static bool is_free(const Panel& panel, const Rect& part) {
-    for (int i = 0; i < looks(panel); ++i)
-      if (chainreel::covers(panel.chain(), panel.motion().skeleton(), panel.motion().shapes(),
-                 panel.motion().pose_at(look_at(panel, i)), panel.camera(), part))
-        return false;
+  bool is_free(const Panel& panel, const Rect& part) const {
+    for (int i = 0; i < looks(panel); ++i) {
+      const int k = look_at(panel, i);
+      const Workspace& ws = panel.motion().pose_at(k);
+      if (chainreel::covers(panel.chain(), panel.motion().skeleton(), panel.motion().shapes(), ws, panel.camera(), part)) return false;
+      Picture springs;
+      MarkLabels labels;
+      for (const auto& layer : springs_) layer->draw(springs, {panel, ws, k, false, {}, labels});
+      if (lies_on(part, obstacles_of(springs))) return false;
+    }
     return true;
   }
 
   const Stage* stage_;
   TextLine text_;
   std::unique_ptr<const Layer> ellipse_;  // null: none is shown
+  Layers springs_;                        // of sliders and of joints; empty: none are shown
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "draw/chains.hpp"
 #include "draw/film/film.hpp"
 #include "draw/layers/vectors.hpp"
+#include "draw/page/word_plan.hpp"
 #include "draw/shapes.hpp"
 #include "draw/robot/made_bodies.hpp"
 #include "dynamics/kinematics.hpp"
@@ -266,6 +267,28 @@ TEST(FieldLayer, KeepsOffTheEllipse) {
       EXPECT_GT(std::hypot(dot(d, e.u) / dot(e.u, e.u), dot(d, e.v) / dot(e.v, e.v)), 1) << k;
     }
   EXPECT_GT(closed, 20) << "there are ellipses";
+}
+
+// A slider whose spring hangs where the arrow else stands.
+TEST(FieldLayer, KeepsOffSprings) {
+  const auto slider = [](const std::string& draw) {
+    return Cause("rr_free", {"model={links: [0.6, 0.5], masses: [2, 1], joints: PR}", "start={q: [0.3, -60deg]}", "duration=4",
+                             "torque=['-80*(q1-0.1) - 3*qd1', 0]", "draw=" + draw}, 3);
+  };
+  const auto arrow = [](const Film& film) {
+    const auto heads = test::all_of<Polygon>(film.static_layer(), [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().force; });
+    return heads.size() == 1 ? widened(test::box_of(heads[0]), 0.02) : Rect{};  // as far as its letter
+  };
+  const Cause hung = slider("[chain, g, springs]");
+  const Film film = hung.film();
+  const auto meets = [&](const Rect& box) {
+    int frames = 0;
+    for (int k = 0; k < hung.run.size(); k += 5) frames += lies_on(box, obstacles_of(film.frame(k)));
+    return frames;
+  };
+  EXPECT_GT(arrow(film).height(), 0);
+  EXPECT_EQ(meets(arrow(film)), 0);
+  EXPECT_LT(arrow(slider("[chain, g]").film()).x1, arrow(film).x0) << "negative control: without a spring it stands on its side";
 }
 
 // How far, in pixels of a plot of 700 x 800, the curve leaves the lines between points of what is kept between frames at 30 Hz,
