@@ -40,8 +40,6 @@ void check_annotations(const Scene& page, const std::vector<const Scene*>& panel
   for (std::size_t i = 0; i < page.annotate.size(); ++i) {
     const AnnotationEntry& entry = page.annotate[i];
     const std::string key = "'annotate." + std::to_string(i + 1);
-    if (is_ghost_layout(page) && entry.panel != 1)
-      problems.add(key + ".panel' is drawn in outline over the first one: point in panel 1, or take layout grid", entry.place);
     const auto panel = std::size_t(entry.panel - 1);
     if (entry.panel < 1 || panel >= chains.size()) {
       problems.add(key + ".panel' is " + std::to_string(entry.panel) + ", but the picture has " +

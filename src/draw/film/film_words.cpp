@@ -73,10 +73,13 @@ class Gatherer {
   const std::vector<Panel>& panels_;
 };
 
-// The ink of a word, as an obstacle to others.
-Obstacle obstacle_of(const Rect& box) {
+// The ink of a word, and the line of one that was asked for, as obstacles to others.
+void add_obstacles(const StandingWord& word, const MarkWord& of, std::vector<Obstacle>& obstacles) {
+  const Rect& box = word.box;
   const double radius = std::min(box.width(), box.height()) / 2, y = center_of(box).y;
-  return {{box.x0 + radius, y}, {box.x1 - radius, y}, radius + kBetweenWords};
+  obstacles.push_back({{box.x0 + radius, y}, {box.x1 - radius, y}, radius + kBetweenWords});
+  const std::optional<TieLine> line = of.leader ? line_of(*of.leader, box) : std::nullopt;
+  if (line) obstacles.push_back({line->from, line->to, kBetweenWords});
 }
 
 // Plans words on a thread of its own, some frames at a time, while the next ones are drawn.
@@ -184,7 +187,7 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
     if (is_left_out(words[i]))
       missing.push_back(std::move(wishes[i]));
     else
-      obstacles.push_back(obstacle_of(words[i].box));
+      add_obstacles(words[i], wishes[i], obstacles);
   }
   WordPlan plan(area_of_words(stage, panels[panel]), kLooksPerSecond);
   plan.add(missing, obstacles);

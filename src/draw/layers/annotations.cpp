@@ -34,7 +34,7 @@ class Annotations : public Layer {
       const std::optional<double> at = instant_of(entry, panels);
       // What comes behind the last frame, as at the very end, is told on it.
       if (!at) continue;
-      const StagedRun& motion = stage.motions[std::min(std::size_t(entry.panel), stage.motions.size()) - 1];
+      const StagedRun& motion = motion_of(entry);
       const std::string text = filled_words(entry.text, motion.scene(), motion.trajectory());
       notes_.push_back({&entry, int(i) + 1, std::min(*at, stage.times.back()), text, lay_out(entry, text)});
     }
@@ -45,7 +45,7 @@ class Annotations : public Layer {
 
   void draw(Picture&, const Shot& shot) const override {
     for (const Note& note : notes_)
-      if (note.entry->panel == shot.panel.clip() + 1 && is_shown(note, stage_->times[std::size_t(shot.k)]))
+      if (is_of_panel(note, shot.panel) && is_shown(note, stage_->times[std::size_t(shot.k)]))
         add_words(note, shot);
   }
 
@@ -70,6 +70,15 @@ class Annotations : public Layer {
     }
   }
 
+  // What is drawn over the first panel in outline has its words there, too.
+  bool is_of_panel(const Note& note, const Panel& panel) const {
+    return stage_->is_ghost() ? panel.clip() == 0 : note.entry->panel == panel.clip() + 1;
+  }
+
+  const StagedRun& motion_of(const AnnotationEntry& entry) const {
+    return stage_->motions[std::min(std::size_t(entry.panel), stage_->motions.size()) - 1];
+  }
+
   bool is_shown(const Note& note, double t) const {
     const double begin = stage_->clock.film_time(note.at), now = stage_->clock.film_time(t);
     return now >= begin - kSame && now <= begin + seconds_shown(*note.entry) + kSame;
@@ -88,12 +97,13 @@ class Annotations : public Layer {
     return 0.5 * farthest;
   }
 
-  // What is spoken of, in W.
-  static Eigen::Vector3d point_of(const AnnotationEntry& entry, const Panel& panel, const Workspace& ws) {
+  // What is spoken of, in W, at a sample of its motion.
+  static Eigen::Vector3d point_of(const AnnotationEntry& entry, const StagedRun& motion, const Camera& camera, int k) {
     if (entry.spot.size() == 3) return {entry.spot[0], entry.spot[1], entry.spot[2]};
-    if (entry.spot.size() == 2) return entry.spot[0] * panel.camera().right + entry.spot[1] * panel.camera().up;
-    const Chain& chain = panel.chain();
-    const int frame = find_point(chain, panel.scene(), entry.point);
+    if (entry.spot.size() == 2) return entry.spot[0] * camera.right + entry.spot[1] * camera.up;
+    const Chain& chain = motion.chain();
+    const Workspace& ws = motion.pose_at(k);
+    const int frame = find_point(chain, motion.scene(), entry.point);
     const Body& body = chain.bodies[std::size_t(chain.frames[std::size_t(frame)].body)];
     const Eigen::Isometry3d pose = frame_pose(chain, ws, frame);
     // A link is meant where it is, not where it begins: its joint has a name of its own.
@@ -106,13 +116,16 @@ class Annotations : public Layer {
     const Rect& area = panel.area();
     const Rect room = widened(area, -kAirOfWords);  // what hangs below the last line is seen whole
     const std::vector<TextLine> shapes = shapes_of(note, room);
-    const Point now = panel.camera().project(point_of(*note.entry, panel, shot.ws));
+    const StagedRun& motion = motion_of(*note.entry);
+    const auto seen_at = [&](int k) {
+      return panel.camera().project(point_of(*note.entry, motion, panel.camera(), std::min(k, motion.samples() - 1)));
+    };
+    const Point now = seen_at(shot.k);
     // Where the words stand is decided by the instant that they are about.
     const auto& times = stage_->times;
     const int samples = panel.last() + 1;
     const int k = int(std::lower_bound(times.begin(), times.begin() + samples, note.at - kSame) - times.begin());
-    const Workspace& then_ws = panel.motion().pose_at(std::min(k, samples - 1));
-    const Point then = panel.camera().project(point_of(*note.entry, panel, then_ws));
+    const Point then = seen_at(std::min(k, samples - 1));
     panel.motion().pose_at(shot.k);  // the workspace of the shot is the same one
     if (!std::isfinite(now.x + now.y + then.x + then.y)) return;
     require_in_picture(note, panel, then);

@@ -225,7 +225,7 @@ class EllipseInside : public Layer {
 class EllipseLines : public Layer {
  public:
   explicit EllipseLines(const Stage& stage)
-      : along_(stage), has_legend_(stage.shows("legend")), is_of_hand_(has_eye(stage.motions.front().chain(), stage.page.camera)) {}
+      : stage_(&stage), along_(stage), has_legend_(stage.shows("legend")), is_of_hand_(has_eye(stage.motions.front().chain(), stage.page.camera)) {}
 
   UnderWords under_words() const override { return UnderWords::if_need_be; }
   bool has_words() const override { return true; }
@@ -239,6 +239,7 @@ class EllipseLines : public Layer {
   void draw(Picture& picture, const Shot& shot) const override {
     EllipseStyle style = along_.style_in(shot.panel, EllipsePart::above);
     style.labels = &shot.labels;
+    style.stands = shot.is_still || stage_->stands_still(shot.k);
     if (!shot.is_still) style.cut_numbers = cut_numbers_at(shot, style);
     along_.draw(picture, shot.panel, shot.k, style);
   }
@@ -255,6 +256,7 @@ class EllipseLines : public Layer {
     return now;
   }
 
+  const Stage* stage_;
   MassAlong along_;
   bool has_legend_;
   mutable std::map<const StagedRun*, std::vector<std::vector<CutNumber>>> cut_numbers_;

@@ -290,7 +290,8 @@ struct CutEnd {
 CutEnd cut_end(Point center, Point v, double length, const EllipseStyle& style) {
   if (!has_one_place(style) || style.hides || !style.signs || !(norm(v) > kNoLength)) return {};
   const Point d = dot(v, style.outward) < 0 ? -1 * unit(v) : unit(v);
-  const double way = way_out(style.scene, center, d), strength = std::clamp((norm(v) - way) / kAppearing, 0.0, 1.0);
+  const double way = way_out(style.scene, center, d), reached = std::clamp((norm(v) - way) / kAppearing, 0.0, 1.0);
+  const double strength = style.stands ? std::round(reached) : reached;
   const auto said = std::ranges::find(style.cut_numbers, length, &CutNumber::length);
   if (said == style.cut_numbers.end()) return {d, way, strength, ""};
   return {d, way, std::min(strength, said->opacity), said->bound};

@@ -66,20 +66,12 @@ class SpeedBox : public Layer {
                         {right.x - r, middle},
                         r,
                         {theme.background, theme.ink, size::kLinkOutline}});
-    if (stands_still(k)) return draw_pause(picture, {right.x - width_ / 2, middle}, 0.7 * r);
+    if (stage_->stands_still(k)) return draw_pause(picture, {right.x - width_ / 2, middle}, 0.7 * r);
     const TextStyle style{Face::label, text_size_, theme.ink, Align::center};
     draw_text(picture, lay_out_text(stage_->fonts, speed_text(stretch->speed), style), {right.x - width_ / 2, right.y});
   }
 
  private:
-  bool stands_still(int k) const {
-    const std::vector<double>& times = stage_->times;
-    const auto at = std::size_t(k);
-    const Hold& held = stage_->page.hold;
-    if ((at == 0 && held.first > 0) || (at + 1 == times.size() && held.last > 0)) return true;
-    return (at > 0 && times[at - 1] == times[at]) || (at + 1 < times.size() && times[at + 1] == times[at]);
-  }
-
   // Two bars.
   void draw_pause(Picture& picture, Point middle, double half) const {
     const Paint paint{stage_->theme.ink, {}, 0};

@@ -137,12 +137,10 @@ constexpr double kTieWidth = 0.0018, kTieHalo = 0.0012;  // what lines cross sta
 
 // From the side of the box that is nearest.
 void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color background, double opacity, int clip) {
-  const Rect air = widened(box, kLeaderGap);
-  const Point from{std::clamp(leader.to.x, air.x0, air.x1), std::clamp(leader.to.y, air.y0, air.y1)};
   const Color color = leader.color.faded(opacity), halo = background.faded(opacity);
-  if (norm(leader.to - from) > kLeaderDot) {
-    picture.add(Capsule{from, leader.to, kLeaderWidth / 2 + kTieHalo, {halo, {}, 0}}, clip);
-    picture.add(Capsule{from, leader.to, kLeaderWidth / 2, {color, {}, 0}}, clip);
+  if (const std::optional<TieLine> line = line_of(leader, box)) {
+    picture.add(Capsule{line->from, line->to, kLeaderWidth / 2 + kTieHalo, {halo, {}, 0}}, clip);
+    picture.add(Capsule{line->from, line->to, kLeaderWidth / 2, {color, {}, 0}}, clip);
   }
   picture.add(Ellipse{leader.to, {kLeaderDot, 0}, {0, kLeaderDot}, {color, halo, kWordHalo}}, clip);
 }
@@ -163,6 +161,12 @@ std::optional<TieLine> line_of(const Tie& tie, const Rect& box) {
   const Point end = tie.other_end && norm(way_from(*tie.other_end)) < norm(way_from(tie.to)) ? *tie.other_end : tie.to, way = way_from(end);
   if (!(norm(way) > tie.near + tie.shortest)) return {};
   return TieLine{end + way, end + (tie.near / norm(way)) * way};
+}
+
+std::optional<TieLine> line_of(const Leader& leader, const Rect& box) {
+  const Point from = nearest_in(widened(box, kLeaderGap), leader.to);
+  if (!(norm(leader.to - from) > kLeaderDot)) return {};
+  return TieLine{from, leader.to};
 }
 
 const TextLine& MarkWord::shape_for(const Rect& box) const {

@@ -37,6 +37,7 @@ struct TieLine {
 };
 // The line of a word that stands there; nothing where it is near enough.
 std::optional<TieLine> line_of(const Tie& tie, const Rect& box);
+std::optional<TieLine> line_of(const Leader& leader, const Rect& box);
 
 struct MarkWord {
   std::string name;  // the same from frame to frame; words of one name are told apart by where they are

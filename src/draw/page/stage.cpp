@@ -124,6 +124,12 @@ bool Stage::is_ghost() const {
   return is_comparison() && motions.back().is_outlined();
 }
 
+bool Stage::stands_still(int k) const {
+  const auto at = std::size_t(k);
+  if ((at == 0 && page.hold.first > 0) || (at + 1 == times.size() && page.hold.last > 0)) return true;
+  return (at > 0 && times[at - 1] == times[at]) || (at + 1 < times.size() && times[at + 1] == times[at]);
+}
+
 double Stage::share_of_lengths() const {
   return std::min(1.0, double(page.video.width) / page.video.height) / std::sqrt(double(full_panels()));
 }

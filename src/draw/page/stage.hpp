@@ -137,6 +137,7 @@ struct Stage {
   bool is_comparison() const { return motions.size() > 1; }
   bool is_ghost() const;  // all in one place, all but the first in outline
   bool has_cells() const { return is_comparison() && !is_ghost(); }
+  bool stands_still(int k) const;  // a frame of a pause, or an end that is held
   std::size_t full_panels() const { return is_ghost() ? 1 : motions.size(); }
   // Of the lengths, in units of H, that arrows and ellipses have alone on a page: panels share it, and one higher than wide
   // gives lengths by its width.

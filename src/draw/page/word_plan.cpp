@@ -214,7 +214,7 @@ void WordPlan::add(const std::vector<MarkWord>& words, const std::vector<Obstacl
   for (const Obstacle& one : obstacles) all.push_back({room_of(one), one});
   const std::size_t most = words.size() > kCrowdOfWords ? 1 : std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < words.size(); ++i) {
-    Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}, words[i].anchor, {}, {}};
+    Moment now{frame, int(i), {}, {}, words[i].leader.has_value(), {}, words[i].anchor, {}, {}, words[i].leader};
     if (!now.insists) now.tie = words[i].tie;
     find_near(words[i], area_, all, near);
     const std::size_t places = std::min(words[i].places.size(), most);
@@ -348,6 +348,16 @@ struct WordPlan::Placed {
   }
 };
 
+// Those that insist have words first, to which others yield with their lines; then what is drawn above others: vectors before the
+// letters of axes.
+std::vector<const WordPlan::Track*> WordPlan::in_order() const {
+  std::vector<const Track*> order;
+  for (const Track& track : std::views::reverse(tracks_))
+    if (!track.moments.empty()) order.push_back(&track);
+  std::ranges::stable_partition(order, [](const Track* track) { return track->moments.front().insists; });
+  return order;
+}
+
 int WordPlan::frames_in(double seconds) const {
   return std::max(1, int(std::lround(seconds * fps_)));
 }
@@ -358,12 +368,14 @@ WordPlan::Decisions WordPlan::decide(bool is_whole) const {
   const int shortest = std::clamp(frames_in(kShortestStay), 1, std::max(1, all));
   Decisions placed(counts_.size());
   for (std::size_t k = 0; k < counts_.size(); ++k) placed[k].resize(std::size_t(counts_[k]));
+  // Figures keep ties apart themselves, where words have many more of them (draw/figures/pose_labels).
+  const auto line_at = [all](const Moment& now, int place) {
+    return all > 1 || now.leader ? now.line_at(place) : std::nullopt;
+  };
   const auto frame_of = [&](const Moment& now) -> std::vector<Placed>& { return placed[std::size_t(now.frame - first_)]; };
   for (int round = 0; round < kPlanRounds; ++round)
-    // What is drawn above others has words first: vectors before the letters of axes.
-    for (const Track& one : std::views::reverse(tracks_)) {
-      const std::vector<Moment>& track = one.moments;
-      if (track.empty()) continue;
+    for (const Track* one : in_order()) {
+      const std::vector<Moment>& track = one->moments;
       for (const Moment& now : track) frame_of(now)[std::size_t(now.index)].word.opacity = 0;
       // How long a frame is looked at, s.
       const auto stands = [&](std::size_t m) {
@@ -376,10 +388,9 @@ WordPlan::Decisions WordPlan::decide(bool is_whole) const {
         if (now.fixed) return *now.fixed == p ? 0 : never;
         const Ground ground = now.grounds[std::size_t(p)];
         if (ground == Ground::taken) return never;
-        // Figures keep their lines apart themselves, where words have many more of them (draw/figures/pose_labels).
-        const std::optional<TieLine> tie = all > 1 ? now.line_at(p) : std::nullopt;
+        const std::optional<TieLine> own = line_at(now, p);
         const bool is_met = std::ranges::any_of(frame_of(now), [&](const Placed& other) {
-          return other.meets(now.places[std::size_t(p)], tie, between_);
+          return other.meets(now.places[std::size_t(p)], own, between_);
         });
         const double poor = ground == Ground::poor ? kPoorGround * stands(m) : 0;
         if (now.insists) return (p * kWorseOfMany + now.leaders[std::size_t(p)]) / fps_ + poor + (is_met ? kPoorGround * stands(m) : 0);
@@ -396,7 +407,7 @@ WordPlan::Decisions WordPlan::decide(bool is_whole) const {
         const Moment& now = track[m];
         Placed& here = frame_of(now)[std::size_t(now.index)];
         here.place = way[m];
-        if (way[m] != kNowhere) here.word = now.at(way[m], strength[m]), here.line = all > 1 ? now.line_at(way[m]) : std::nullopt;
+        if (way[m] != kNowhere) here.word = now.at(way[m], strength[m]), here.line = line_at(now, way[m]);
       }
     }
   return placed;

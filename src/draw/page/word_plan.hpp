@@ -83,8 +83,12 @@ class WordPlan {
     std::optional<Point> anchor;
     std::optional<Tie> tie;
     std::optional<int> fixed{};  // the place that was decided upon, or kNowhere
+    std::optional<Leader> leader{};  // of words that insist
 
-    std::optional<TieLine> line_at(int place) const { return tie ? line_of(*tie, places[std::size_t(place)]) : std::nullopt; }
+    std::optional<TieLine> line_at(int place) const {
+      const Rect& box = places[std::size_t(place)];
+      return leader ? line_of(*leader, box) : tie ? line_of(*tie, box) : std::nullopt;
+    }
     StandingWord at(int place, double opacity = 1) const { return {places[std::size_t(place)], opacity, anchor}; }
   };
   // One word from frame to frame.
@@ -97,6 +101,7 @@ class WordPlan {
   using Decisions = std::vector<std::vector<Placed>>;  // by frame from first_ on
 
   Track& track_of(const MarkWord& word, int frame);
+  std::vector<const Track*> in_order() const;
   int frames() const { return first_ + int(counts_.size()); }
   int frames_in(double seconds) const;
   Decisions decide(bool is_whole) const;

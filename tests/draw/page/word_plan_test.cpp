@@ -57,6 +57,23 @@ TEST(WordPlan, LinesOfWordsKeepOffWhatIsDrawn) {
   EXPECT_EQ(free.standing()[15][0].box.x0, 0.2 - kHalfWidth);
 }
 
+// Words that were asked for come first: others yield to their lines, whichever is drawn above.
+TEST(WordPlan, OtherWordsKeepOffLinesOfThoseThatInsist) {
+  MarkWord asked = word_at("asked", {{0.5, 0.9}});
+  asked.leader = Leader{{0.5, 0.1}, {}};
+  const MarkWord name = word_at("name", {{0.5, 0.5}, {0.8, 0.5}});
+  for (const bool is_above : {false, true}) {
+    WordPlan plan(kPlanArea, kPlanFps);
+    for (int k = 0; k < 30; ++k) plan.add(is_above ? std::vector{asked, name} : std::vector{name, asked}, {});
+    EXPECT_EQ(plan.standing()[15][is_above ? 1 : 0].box.x0, 0.8 - kHalfWidth) << is_above;
+  }
+  // Negative control: a word without a line is passed by.
+  asked.leader.reset();
+  WordPlan free(kPlanArea, kPlanFps);
+  for (int k = 0; k < 30; ++k) free.add({asked, name}, {});
+  EXPECT_EQ(free.standing()[15][1].box.x0, 0.5 - kHalfWidth);
+}
+
 // A bar comes over the best place for a second: the word is elsewhere before it comes, and fades on its way.
 TEST(WordPlan, LeavesForWhatComesAndFades) {
   WordPlan plan(kPlanArea, kPlanFps);
