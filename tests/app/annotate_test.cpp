@@ -106,8 +106,8 @@ TEST(Annotations, LetNoNumberStandHalfFadedWhileTheFilmStandsStill) {
       if (const auto* run = std::get_if<GlyphRun>(&item.shape)) count += run->color.a > 0 && run->color.a < 1 && run->stroke_width == 0;
     return count;
   };
-  const int last = runs.clock().frame_at(0.3), fade = 6;  // frames: words that yield to the new ones go meanwhile
-  for (int k = last - 28 + fade; k < last; ++k) EXPECT_EQ(faded(k), 0) << k;
+  const int last = runs.clock().frame_at(0.3), fade = 6;  // frames: words that change places go and come meanwhile
+  for (int k = last - 28 + fade; k < last - fade; ++k) EXPECT_EQ(faded(k), 0) << k;
   int moving = 0;
   for (int k = 0; k < pictures.frame_count(); ++k) moving += faded(k);
   EXPECT_GT(moving, 0) << "negative control";
