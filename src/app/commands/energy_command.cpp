@@ -20,6 +20,7 @@
 #include "draw/charts/energy_chart.hpp"
 #include "draw/charts/lit_colours.hpp"
 #include "draw/page/house_style.hpp"
+#include "picture/formula_words.hpp"
 #include "scene/run/title.hpp"
 #include "scene/text/read_scene.hpp"
 #include "sim/audit.hpp"
@@ -134,7 +135,7 @@ EnergySubjects compare_panels(PreparedFilm film, const Settings& settings) {
     MethodSetting setting{simulation.method, simulation.options, simulation.step};
     if (settings.step && setting.step > 0) setting.step = *settings.step;
     if (settings.tolerance && setting.options.tolerance > 0) setting.options.tolerance = *settings.tolerance;
-    all.subjects.push_back({&simulation, setting, panel.scene.title, int(all.subjects.size()) + 1});
+    all.subjects.push_back({&simulation, setting, in_plain_words(panel.scene.title), int(all.subjects.size()) + 1});
   }
   return all;
 }

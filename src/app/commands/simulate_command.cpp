@@ -23,6 +23,7 @@
 #include "app/today/table_record.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "picture/formula_words.hpp"
 #include "scene/film_clock.hpp"
 #include "scene/quantity.hpp"
 #include "scene/text/read_scene.hpp"
@@ -108,7 +109,7 @@ Json simulate_panel(const PreparedFilm& film, const PreparedScene& prepared, Tab
     if (!is_complete(trajectory.status) && !options.common.json) throw;
   }
   const RunReport run = run_report(prepared, trajectory);
-  const std::string name = prepared.scene.name + (alone ? "" : ", '" + prepared.scene.title + "'");
+  const std::string name = prepared.scene.name + (alone ? "" : ", '" + in_plain_words(prepared.scene.title) + "'");
   tell_warnings(warning_lines(name, run));
   if (!options.common.quiet)
     for (const std::string& note : notes_of(prepared, trajectory)) std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());

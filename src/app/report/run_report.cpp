@@ -13,6 +13,7 @@
 #include "draw/film/compose.hpp"
 #include "draw/layers/speed_box.hpp"
 #include "model/model_description.hpp"
+#include "picture/formula_words.hpp"
 #include "render/canvas.hpp"
 #include "scene/keys/keys.hpp"
 #include "scene/run/fall.hpp"
@@ -218,7 +219,7 @@ std::vector<std::string> warning_lines(const FilmReport& report) {
   if (report.panels.size() == 1) return warning_lines(name, report.panels.front());
   std::vector<std::string> lines;
   for (const RunReport& panel : report.panels)
-    for (std::string& line : warning_lines(name + ", '" + title_of(panel) + "'", panel)) lines.push_back(std::move(line));
+    for (std::string& line : warning_lines(name + ", '" + in_plain_words(title_of(panel)) + "'", panel)) lines.push_back(std::move(line));
   return lines;
 }
 

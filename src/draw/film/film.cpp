@@ -7,6 +7,7 @@
 
 #include "draw/page/arrow.hpp"
 #include "draw/page/scales.hpp"
+#include "picture/formula_words.hpp"
 
 namespace chainreel {
 namespace {
@@ -182,7 +183,7 @@ Picture Film::drawn(int k, bool is_still) const {
 // too long its name. How far away a run has been is said in smaller letters before it is left out.
 std::vector<TextLine> Film::note_lines(const Panel& panel, int k, const Rect& row, const TextStyle& style) const {
   const double text_scale = stage_->page.text_scale, least = least_word(stage_->page.video);
-  const std::string whose = stage_->is_ghost() ? panel.title() + ": " : "";
+  const std::string whose = stage_->is_ghost() ? in_plain_words(panel.title()) + ": " : "";
   const auto widest = [](const std::vector<TextLine>& lines) { return std::ranges::max(lines, {}, &TextLine::advance).advance; };
   std::vector<TextLine> lines;
   for (const int events : {2, 1, 0}) {

@@ -71,9 +71,8 @@ class Field : public Layer {
   }
 
   void draw_once(Picture& picture, const Panel& panel) const override {
-    if (&panel.motion() != &stage_->motions.front()) return;
     const Vector3d g = panel.chain().gravity;
-    if (!(g.norm() > 0)) return;
+    if (!(g.norm() > 0) || !stands_in(panel)) return;
     const Camera& camera = panel.camera();
     const Point seen{camera.right.dot(g) / g.norm(), camera.up.dot(g) / g.norm()};
     if (norm(seen) < kSeenLeast) return;
@@ -97,6 +96,13 @@ class Field : public Layer {
   }
 
  private:
+  // One arrow stands for all panels that have its gravity; where they differ each has its own, and chains that lie over one another none.
+  bool stands_in(const Panel& panel) const {
+    const Vector3d& first = stage_->motions.front().chain().gravity;
+    const bool is_one = std::ranges::all_of(stage_->motions, [&](const StagedRun& motion) { return motion.chain().gravity == first; });
+    return is_one ? &panel.motion() == &stage_->motions.front() : !stage_->is_ghost();
+  }
+
   // Where the arrow begins, so that no pose and no spring comes near `ink` about there: beside the motion, on a level with its upper part,
   // else in a corner of the panel; off ellipses, if it can; nothing where the motion fills it all.
   std::optional<Point> free_place(const Panel& panel, const Rect& ink) const {

@@ -291,6 +291,20 @@ TEST(FieldLayer, KeepsOffSprings) {
   EXPECT_LT(arrow(slider("[chain, g]").film()).x1, arrow(film).x0) << "negative control: without a spring it stands on its side";
 }
 
+// One arrow stands for panels of one gravity alone.
+TEST(FieldLayer, StandsInEachPanelWhereGravityDiffers) {
+  const auto arrows = [](const Cause& a, const Cause& b) {
+    const Film film(a.scene, {{a.scene, a.simulation.chain, a.run, &a.simulation}, {b.scene, b.simulation.chain, b.run, &b.simulation}}, a.times, a.fonts);
+    return test::all_of<Polygon>(film.static_layer(), [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().force; });
+  };
+  const Cause down("rr_free", {}, 0.5), up("rr_free", {"gravity=[0, 9.81, 0]"}, 0.5);
+  EXPECT_EQ(arrows(down, down).size(), 1u);
+  const auto both = arrows(down, up);
+  ASSERT_EQ(both.size(), 2u);
+  const auto points_up = [](const Polygon& head) { return head.corners[0].y > head.corners[1].y; };
+  EXPECT_NE(points_up(both[0]), points_up(both[1]));
+}
+
 // How far, in pixels of a plot of 700 x 800, the curve leaves the lines between points of what is kept between frames at 30 Hz,
 // and between those frames alone.
 TEST(PlotsOfFilms, AreWithinHalfAPixelOfTheCurve) {
