@@ -20,13 +20,14 @@ std::vector<double> first_times(const Trajectory& trajectory, int frames) {
   return {trajectory.t.begin(), trajectory.t.begin() + std::ptrdiff_t(count)};
 }
 
-// A note in two lines: an event each, or, of one that is too long for one, how far away its run has been in the second.
+// A note in two lines: an event each, or, of one that is too long for one, how far away its run has been in the second, else when it was.
 std::optional<std::pair<std::string, std::string>> broken_note(const std::string& note, bool is_long) {
   if (const std::size_t end = note.find(kBetweenEvents); end != std::string::npos)
     return std::pair{note.substr(0, end), note.substr(end + std::string_view(kBetweenEvents).size())};
-  const std::size_t end = note.find(kBeforeAway);
-  if (!is_long || end == std::string::npos) return std::nullopt;
-  return std::pair{note.substr(0, end + 1), note.substr(end + 2)};
+  if (!is_long) return std::nullopt;
+  if (const std::size_t end = note.find(kBeforeAway); end != std::string::npos) return std::pair{note.substr(0, end + 1), note.substr(end + 2)};
+  if (const std::size_t end = note.find(" at t = "); end != std::string::npos) return std::pair{note.substr(0, end), note.substr(end + 1)};
+  return std::nullopt;
 }
 
 // Rails are as long as those of runs that are drawn over them, and one machine beside itself has rails of one length.
