@@ -18,7 +18,6 @@
 #include "draw/layers/fading.hpp"
 #include "draw/layers/ground_plane.hpp"
 #include "draw/page/mark_labels.hpp"
-#include "picture/place_picture.hpp"
 #include "draw/page/panel_grid.hpp"
 #include "draw/page/word_plan.hpp"
 #include "draw/robot/chain.hpp"
@@ -26,6 +25,7 @@
 #include "draw/robot/joints.hpp"
 #include "draw/robot/view.hpp"
 #include "dynamics/kinematics.hpp"
+#include "picture/place_picture.hpp"
 
 namespace chainreel {
 namespace {

@@ -193,10 +193,16 @@ std::vector<TextLine> Film::note_lines(const Panel& panel, int k, const Rect& ro
     std::vector<std::string> parts{note};
     if (const auto broken = broken_note(note, is_long); broken && row.height() > 1.5 * kNotePitch * style.size) parts = {broken->first, broken->second};
     lines.clear();
-    TextStyle alike = style;  // as small as the longest of them needs
-    for (const std::string& part : parts)
-      if (const TextLine line = fit_text(stage_->fonts, part, style, row.width(), text_scale); !line.runs.empty()) alike.size = std::min(alike.size, line.runs.front().size);
-    for (const std::string& part : parts) lines.push_back(fit_text(stage_->fonts, part, alike, row.width(), text_scale));
+    TextStyle alike = style;  // as small as those before it need
+    const auto add = [&](const std::string& part) {
+      lines.push_back(fit_text(stage_->fonts, part, alike, row.width(), text_scale));
+      if (!lines.back().runs.empty()) alike.size = std::min(alike.size, lines.back().runs.front().size);
+    };
+    for (const std::string& part : parts) add(part);
+    if (parts.size() > 1) {  // and all as small as the longest
+      lines.clear();
+      for (const std::string& part : parts) add(part);
+    }
     const double wide = widest(lines);
     if (wide <= row.width() + kRoundOff) return lines;
     TextStyle small = style;

@@ -54,7 +54,7 @@ std::vector<Excursion> excursions_of(const std::vector<Point>& points, const Val
     if (!std::isfinite(points[k].y) || side(k) == 0) continue;
     Excursion one{k, k, k, side(k) > 0};
     for (; one.end < points.size() && std::isfinite(points[one.end].y) && side(one.end) == side(k); ++one.end)
-      if (std::abs(points[one.end].y - points[one.farthest].y) > 0 && (points[one.end].y > points[one.farthest].y) == one.is_up) one.farthest = one.end;
+      if (one.is_up ? points[one.end].y > points[one.farthest].y : points[one.end].y < points[one.farthest].y) one.farthest = one.end;
     k = one.end - 1;
     found.push_back(one);
   }

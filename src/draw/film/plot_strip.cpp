@@ -82,7 +82,7 @@ std::string title_with_symbol(const PlotCurves& plot) {
   return leads ? "$" + symbol + "$" + plot.title.substr(symbol.size()) : plot.title;
 }
 
-// In comparisons the titles bear the colours of their curves, where there are few.
+// In comparisons of two the titles bear the colours of their curves.
 std::string label_of(const PlotCurves& plot, std::size_t curve, const StripRun& run, std::size_t runs) {
   const std::string& own = plot.curves[curve].name;
   const bool is_symbol = !symbol_of(plot.quantity).empty() || is_of_ellipse(plot.quantity);
