@@ -20,6 +20,7 @@ double usual_height(double width, int panels, bool is_one_picture) {
 struct PageOfPoses {
   double height = 0;  // mm
   int words = -1;
+  bool is_compact = false;
   double metre = 0, kilogram = 0, merit = 0;
 };
 
@@ -27,18 +28,20 @@ struct PageOfPoses {
 // then.
 PageOfPoses page_of_poses(const std::function<PoseFigureFit(double)>& fit_at, double tallest, double width, bool wants_lengths) {
   constexpr double kAsLarge = 0.96, kEllipses = 0.7, kFlattest = 0.2, kStep = 1, kWithoutMatrix = 0.8;  // of the size, of the width, mm
-  constexpr double kHeight = 1.5, kWithoutLengths = 0.3;  // the smaller page is the better one, even where it shows things somewhat smaller
+  constexpr double kWithoutLengths = 0.3, kLines = 0.1;
+  constexpr double kHeight = 1.5;  // the smaller page is the better one, even where it shows things somewhat smaller
   const auto page_at = [&](double height) {
     const PoseFigureFit fit = fit_at(height);
-    PageOfPoses page{height, fit.metre > 0 ? 2 * int(fit.is_whole) + int(fit.has_masses) : -1, fit.metre, fit.kilogram, 0};
-    page.merit = (fit.has_matrices ? 1 : kWithoutMatrix) * (fit.has_lengths || !wants_lengths ? 1 : kWithoutLengths) * std::sqrt(fit.metre * fit.kilogram) / std::pow(height, kHeight);
+    PageOfPoses page{height, fit.metre > 0 ? 2 * int(fit.is_whole) + int(fit.has_masses) : -1, fit.is_compact, fit.metre, fit.kilogram, 0};
+    page.merit = (fit.has_matrices ? 1 : kWithoutMatrix) * (fit.has_lengths || !wants_lengths ? 1 : kWithoutLengths) * (fit.is_compact ? 1 : kLines) *
+                 std::sqrt(fit.metre * fit.kilogram) / std::pow(height, kHeight);
     return page;
   };
   PageOfPoses page = page_at(tallest);
   const PageOfPoses wished = page;
   for (double low = kFlattest * width; page.height - low > kStep;) {
     const PageOfPoses tried = page_at((low + page.height) / 2);
-    if (tried.metre >= kAsLarge * wished.metre && tried.kilogram >= kEllipses * wished.kilogram && tried.words == page.words)
+    if (tried.metre >= kAsLarge * wished.metre && tried.kilogram >= kEllipses * wished.kilogram && tried.words == page.words && tried.is_compact == page.is_compact)
       page = tried;
     else
       low = tried.height;
@@ -67,7 +70,7 @@ void put_on_paper(PoseFigureOptions& figure, const PaperOptions& paper, const Ti
     set_page(tried, paper_page(paper, height), text_scale);
     return tried;
   };
-  PageOfPoses best{usual_height(width, is_row ? 1 : count, is_one_picture)};
+  PageOfPoses best{.height = usual_height(width, is_row ? 1 : count, is_one_picture)};
   int best_across = 0;
   if (!is_one_picture && paper.height_mm == PaperOptions::kNotGiven)
     for (int across = is_row ? count : 1; across <= (is_row ? count : std::min(count, kMostAcross)); ++across) {

@@ -187,7 +187,7 @@ EllipseScale scale_of(double per_unit, EllipseReading reading) {
 }
 
 Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const EllipseScale& scale,
-               const Fonts& fonts, double height, bool names_masses) {
+               const Fonts& fonts, double height, UnderPoses under) {
   SheetText text;
   text.title = options.title;
   text.logo = logo_of(options);
@@ -196,7 +196,9 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
   text.legend = ellipse_legend(options.reading, chain.planar      ? EllipseBody::flat
                                                 : options.section ? EllipseBody::section
                                                                   : EllipseBody::solid);
-  if (names_masses) text.legend = text.legend.substr(0, text.legend.find(": ")) + ", eigenvalues of \u039B under each pose";
+  if (under != UnderPoses::named)
+    text.legend = text.legend.substr(0, text.legend.find(": ")) +
+                  (under == UnderPoses::masses ? ", eigenvalues of \u039B under each pose" : ", under each q: eigenvalues of \u039B");
   if (options.cell > 0) text.legend += "; cut where longer than its cell";
   text.legend_size = size::kTick;
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
@@ -211,7 +213,7 @@ PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<do
   if (!best) return {};
   const double of_width = double(page.options.height) / options.width;
   return {best->camera.scale * of_width, best->scale.per_unit() * of_width, best->words.fit && !has_cut_captions(*best), best->has_masses,
-          best->lines.empty(), has_lengths(*best)};
+          best->lines.empty(), has_lengths(*best), best->below.empty() && is_mostly_picture(*best)};
 }
 
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,
@@ -239,7 +241,7 @@ Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<d
   int left_out = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) left_out += draw_panel(picture, panels, i, poses[i], ws);
   if (numbers_left_out != nullptr) *numbers_left_out = left_out;
-  draw_sheet(picture, sheet_of(chain, page.options, panels.scale, fonts, page.height, panels.has_bare_masses));
+  draw_sheet(picture, sheet_of(chain, page.options, panels.scale, fonts, page.height, panels.under));
   return in_page_units(picture, page.height);
 }
 

@@ -31,10 +31,13 @@ EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReadi
 // The bar of a scale that draws a unit so long, units of H.
 EllipseScale scale_of(double per_unit, EllipseReading reading);
 
+// What stands below panels without a name, which the legend has then.
+enum class UnderPoses { named, masses, poses_and_masses };
+
 // With legend, scale and title.
-// `height`: of the page, in units. `names_masses`: below the panels stand masses without a name.
+// `height`: of the page, in units.
 Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const EllipseScale& scale, const Fonts& fonts, double height = 1,
-               bool names_masses = false);
+               UnderPoses under = UnderPoses::named);
 
 // All poses in one place, or a field. `numbers_left_out`: see draw_ellipse_figure.
 Picture draw_superposed(const Chain& chain, const std::vector<Pose>& poses, const PoseFigureOptions& options,

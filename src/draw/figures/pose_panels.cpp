@@ -134,9 +134,18 @@ void write_lines(Panels& panels, const std::vector<Pose>& poses) {
   panels.caption = caption_line_height(text_scale);
   panels.has_masses = true;
   if (all_fit(panels, whole)) return;
+  for (const std::size_t form : {std::size_t{0}, std::size_t{1}}) {  // on one line without names: the sheet has them
+    std::vector<std::string> bare;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      bare.push_back(panels.lines[i][1 + form] + (form == 0 ? ", " : ": ") + eigenvalues_notations(masses_of(poses[i].effective))[1]);
+    if (!all_fit(panels, bare)) continue;
+    panels.under = form == 0 ? UnderPoses::masses : UnderPoses::poses_and_masses;
+    for (std::size_t i = 0; i < poses.size(); ++i) panels.lines[i] = {bare[i]};
+    return;
+  }
   for (std::vector<std::string>& forms : panels.lines) forms.erase(forms.begin());
   for (std::size_t form = 0; form < 2 && masses.empty(); ++form) {
-    panels.has_bare_masses = form == 1;
+    panels.under = form == 1 ? UnderPoses::masses : UnderPoses::named;
     for (const Pose& pose : poses) masses.push_back(eigenvalues_notations(masses_of(pose.effective))[form]);
     if (!all_fit(panels, masses)) masses.clear();
   }
@@ -149,7 +158,7 @@ void write_lines(Panels& panels, const std::vector<Pose>& poses) {
     for (std::size_t i = 0; i < poses.size(); ++i) panels.lines[i] = {in_lines[0][i]};
   }
   panels.has_masses = !masses.empty() && has_room(panels.below.size() + 1);
-  panels.has_bare_masses = panels.has_bare_masses && panels.has_masses;
+  if (!panels.has_masses) panels.under = UnderPoses::named;
   if (panels.has_masses) panels.below.push_back(masses);
   panels.caption = caption_line_height(text_scale, 1 + int(panels.below.size()));
 }
@@ -266,6 +275,10 @@ bool has_lengths(const Panels& panels) {
   return panels.lines.empty() || panels.side() > kRoom * scaled(size::kTick, panels.options.text_scale);
 }
 
+bool is_mostly_picture(const Panels& panels) {
+  return panels.lines.empty() || panels.scene(0).height() >= (panels.below.empty() ? kLeastPicture : kAboveLines) * panels.places[0].height();
+}
+
 bool has_cut_captions(const Panels& panels) {
   return std::any_of(panels.words.notations.begin(), panels.words.notations.end(),
                      [](const std::string& words) { return words.find("\u2026") != std::string::npos; });
@@ -279,9 +292,7 @@ double merit(const Panels& panels) {
   constexpr double kEmptyCells = 1.4, kCutCaption = 0.5, kCollision = 0.01, kWithoutMatrix = 0.8, kWithoutLengths = 0.6;
   const auto in_top_row = std::count_if(panels.places.begin(), panels.places.end(), [&](const Rect& r) { return r.y1 == panels.places[0].y1; });
   const double count = double(panels.places.size()), across = double(in_top_row), cells = across * std::ceil(count / across);
-  const bool is_picture =
-      panels.lines.empty() || panels.scene(0).height() >= (panels.below.empty() ? kLeastPicture : kAboveLines) * panels.places[0].height();
-  return (is_picture ? 1 : 0.1) * (1 - kEmptyCells * (cells - count) / cells) * (has_cut_captions(panels) ? kCutCaption : 1) *
+  return (is_mostly_picture(panels) ? 1 : 0.1) * (1 - kEmptyCells * (cells - count) / cells) * (has_cut_captions(panels) ? kCutCaption : 1) *
          (panels.words.fit ? 1 : kCollision) * (has_lengths(panels) ? 1 : kWithoutLengths) *
          (panels.lines.empty() || panels.places.size() >= kManyPoses ? 1 : kWithoutMatrix) *
          std::sqrt(panels.filled * panels.camera.scale * panels.scale.per_unit());
@@ -294,10 +305,10 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
   const PoseFigureOptions& options = page.options;
   // The scale follows from the size of the panels: they are laid out with the longest bar and label that may
   // come.
-  const auto area_of = [&](bool names_masses) {
-    return sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts, page.height, names_masses).scene;
+  const auto area_of = [&](UnderPoses under) {
+    return sheet_of(chain, options, {0.005, kLongestBar, options.reading}, fonts, page.height, under).scene;
   };
-  const Rect area = area_of(false), above_masses = area_of(true);  // words that name the masses may take a line of their own
+  const Rect area = area_of(UnderPoses::named), above_masses = area_of(UnderPoses::poses_and_masses);  // words that name the masses may take a line of their own
   std::optional<Panels> best;
   const int count = int(poses.size()), only = options.layout == "row" ? count : std::min(options.across, count);
   for (int across = std::max(only, 1); across <= (only > 0 ? only : count); ++across)
@@ -305,7 +316,7 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
       for (const Rect& above : {area, above_masses}) {
         Panels panels{chain, page, fonts};
         if (!lay_out(panels, above, across, beside, poses, ws)) break;
-        if (panels.has_bare_masses && above.y0 < above_masses.y0) continue;
+        if (panels.under != UnderPoses::named && above.y0 < above_masses.y0) continue;
         if (!best || merit(panels) > merit(*best)) best.emplace(std::move(panels));
         break;
       }

@@ -26,7 +26,7 @@ struct Panels {
   CaptionLines words{};                           // what of them is written; else the poses above their numbers
   std::vector<std::vector<std::string>> below{};  // further lines of such captions, one a panel each
   bool has_masses = true;                       // below the scenes
-  bool has_bare_masses = false;                 // ... without their name
+  UnderPoses under = UnderPoses::named;         // what of the captions the sheet names
   double filled = 1;                            // the share of a scene that is kept when it is cut to content
   double marks = 1;
   EllipseScale scale{};
@@ -62,6 +62,8 @@ std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& p
                                   Workspace& ws);
 // Panels that are narrow for what they show are no higher than it needs, or than they are wide, and stand in the middle of `area`.
 void cut_to_content(Panels& panels, const Rect& area, const std::vector<Pose>& poses, Workspace& ws);
+// Whether a panel of many has most of its cell, a caption of one line or of several the rest.
+bool is_mostly_picture(const Panels& panels);
 // Whether a pose below its panel is shortened.
 bool has_cut_captions(const Panels& panels);
 

@@ -76,7 +76,8 @@ struct PoseFigureFit {
   bool is_whole = false;           // each pose stands below its picture as it is
   bool has_masses = false;         // ... and so does its Lambda, or the masses along its axes
   bool has_matrices = false;       // ... Lambda itself
-  bool has_lengths = false;   // semi-axes have their numbers
+  bool has_lengths = false;        // semi-axes have their numbers
+  bool is_compact = false;         // of many poses: captions of one line, and pictures have most of their cells
 };
 PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<double>>& poses, const PoseFigureOptions& options,
                            const Fonts& fonts);
