@@ -9,7 +9,10 @@
 #include <optional>
 #include <sstream>
 
+#include "app/paper/pose_page.hpp"
 #include "encode/png.hpp"
+#include "model/read_chain.hpp"
+#include "support/fonts.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -186,6 +189,28 @@ TEST(OnPaper, EllipsesAtPosesAreAsHighAsTheirPanelsNeed) {
   EXPECT_LT(height({"--pose", "0,90deg", "--pose", "30deg,60deg", "--layout", "row"}), 100) << "as large as the width allows";
 }
 
+// From five poses on a caption has one line, and the picture at least 70 % of its cell, on a column and across a page. On pages whose height is
+// given there may be no room for that: the control.
+TEST(OnPaper, ManyPosesHaveOneLineEach) {
+  const Chain chain = read_chain("models/rr.urdf");
+  const TipMass mass(chain);
+  for (const double width : {84.0, 174.0})
+    for (const std::size_t count : {5, 7, 12})
+      for (const bool letters : {false, true}) {
+        std::vector<std::vector<double>> poses;
+        for (std::size_t i = 0; i < count; ++i) poses.push_back({0.35 * double(i), 0.7 + 0.15 * double(i)});
+        PoseFigureOptions figure;
+        figure.letters = letters;
+        put_on_paper(figure, {.width_mm = width}, mass, poses, fonts());
+        const PoseFigureFit fit = fit_of_poses(mass, poses, figure, fonts());
+        EXPECT_TRUE(fit.is_compact && fit.is_whole && fit.has_masses) << width << " mm, " << count << " poses";
+        if (width > 84 || count < 8) continue;
+        PoseFigureOptions low;
+        put_on_paper(low, {.width_mm = width, .height_mm = 40}, mass, poses, fonts());
+        EXPECT_FALSE(fit_of_poses(mass, poses, low, fonts()).is_compact);
+      }
+}
+
 // No pose loses its Lambda in silence: a page that is made for it has room, and one that has none says so.
 TEST(OnPaper, EllipsesHaveTheirMassesOrSayThatThereIsNoRoom) {
   const TemporaryFolder folder;
@@ -199,7 +224,7 @@ TEST(OnPaper, EllipsesHaveTheirMassesOrSayThatThereIsNoRoom) {
   };
   EXPECT_EQ(told({"--letters"}), "");
   EXPECT_EQ(told({"--letters", "--layout", "row"}), "");
-  EXPECT_THAT(told({"--letters", "--layout", "row", "--height-mm", "22"}), testing::HasSubstr("no room for the masses"));
+  EXPECT_THAT(told({"--letters", "--layout", "row", "--height-mm", "22", "--pose", "10deg,45deg", "--pose", "20deg,100deg"}), testing::HasSubstr("no room for the masses"));
 }
 
 TEST(OnPaper, JointSpaceIsAsHighAsItsPosesNeed) {

@@ -213,7 +213,8 @@ PoseFigureFit fit_of_poses(const TipMass& mass, const std::vector<std::vector<do
   if (!best) return {};
   const double of_width = double(page.options.height) / options.width;
   return {best->camera.scale * of_width, best->scale.per_unit() * of_width, best->words.fit && !has_cut_captions(*best), best->has_masses,
-          best->lines.empty(), has_lengths(*best), best->below.empty() && is_mostly_picture(*best)};
+          best->lines.empty(), has_lengths(*best),
+          best->places.size() < kManyPoses || (best->below.empty() && is_mostly_picture(*best))};
 }
 
 Picture draw_ellipse_figure(const TipMass& mass, const std::vector<std::vector<double>>& configurations,

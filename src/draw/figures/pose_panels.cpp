@@ -14,7 +14,6 @@
 namespace chainreel {
 namespace {
 
-constexpr std::size_t kManyPoses = 5;  // have one line of caption each
 constexpr double kLeastPicture = 0.7, kAboveLines = 0.55;  // of the cell of one of many, above a caption of one line, and of several
 constexpr double kOfSemiAxis = 0.55;  // half of a link's width at most, of the shortest semi-axis: ellipses are seen beside their links
 constexpr double kLeastSide = 0.08, kLeastEms = 5;  // of a panel that can be read: units of H, or of its words on tall pages

@@ -11,6 +11,7 @@
 
 namespace chainreel {
 
+inline constexpr std::size_t kManyPoses = 5;   // have one line of caption each
 inline constexpr double kLabelInset = 0.014;  // of words in a panel's corner
 
 // What all panels share.
