@@ -106,6 +106,34 @@ std::string unit_of_name(const PlotSet& plots, const Chain& chain, const std::op
   return "";
 }
 
+// The body that each coordinate, or with `rates` each rate, moves; 0 for none.
+std::vector<int> bodies_moved(const Chain& chain, bool rates) {
+  std::vector<int> bodies(std::size_t(rates ? chain.nv : chain.nq), 0);
+  for (std::size_t b = chain.bodies.size(); b-- > 1;) {  // of those that share one the first
+    const Joint& joint = chain.bodies[b].joint;
+    if (joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic) bodies[std::size_t(rates ? joint.v_index : joint.q_index)] = int(b);
+  }
+  return bodies;
+}
+
+// The one body of whose motion an expression is; 0 where there is none, or several.
+int body_of(const Expression& value, const Probe& probe, const Chain& chain) {
+  int found = 0;
+  for (const int slot : value.used_variables()) {
+    int body = 0;
+    if (probe.is_kinematic(slot)) {
+      const int frame = probe.frame_of(chain, slot);
+      if (frame >= 0) body = chain.frames[std::size_t(frame)].body;
+    } else if (slot >= 1 && slot < 1 + chain.nq + chain.nv) {
+      const bool is_rate = slot >= 1 + chain.nq;
+      body = bodies_moved(chain, is_rate)[std::size_t(slot - 1 - (is_rate ? chain.nq : 0))];
+    }
+    if (body > 0 && found > 0 && body != found) return 0;
+    if (body > 0) found = body;
+  }
+  return found;
+}
+
 // What stands in a plot beside others, and in no expression.
 void require_no_curve_alone(const PlotEntry& entry, const std::vector<std::string>& names) {
   constexpr std::array<const char*, 4> kEnergies{"kinetic", "potential", "springs", "total"};
@@ -147,11 +175,12 @@ std::vector<std::string> numbered(const std::string& stem, int count) {
   return names;
 }
 
-// The curves of a table with a row a sample.
-PlotCurves columns(const std::vector<double>& table, const std::vector<std::string>& names, int samples) {
+// The curves of a table with a row a sample. `bodies`: of each, where they are of bodies.
+PlotCurves columns(const std::vector<double>& table, const std::vector<std::string>& names, int samples, const std::vector<int>& bodies = {}) {
   PlotCurves plot;
   for (std::size_t i = 0; i < names.size(); ++i) {
     PlotCurve curve{names[i], {}};
+    if (i < bodies.size()) curve.body = bodies[i];
     curve.y.reserve(std::size_t(samples));
     for (int k = 0; k < samples; ++k) curve.y.push_back(table[std::size_t(k) * names.size() + i]);
     plot.curves.push_back(std::move(curve));
@@ -251,6 +280,7 @@ PlotCurves values_of(const Expression& value, const PlotSet& plots, const Simula
   PlotCurve curve;
   for (int k = 0; k < samples; ++k) curve.y.push_back(expressions.at(value, k));
   cut_poles(curve);
+  curve.body = body_of(value, plots.probe, simulation.chain);
   PlotCurves plot;
   plot.curves.push_back(std::move(curve));
   return plot;
@@ -287,11 +317,11 @@ PlotCurves curves_of(const PlotSet::Plot& plot, const PlotSet& plots, const Simu
       return error;
     }
     case PlotQuantity::q:
-      return columns(trajectory.q, numbered("q", trajectory.nq), samples);
+      return columns(trajectory.q, numbered("q", trajectory.nq), samples, bodies_moved(chain, false));
     case PlotQuantity::qd:
-      return columns(trajectory.qd, numbered("qd", trajectory.nv), samples);
+      return columns(trajectory.qd, numbered("qd", trajectory.nv), samples, bodies_moved(chain, true));
     case PlotQuantity::tau:
-      return columns(torques_along(simulation, trajectory), numbered("tau", chain.nv), samples);
+      return columns(torques_along(simulation, trajectory), numbered("tau", chain.nv), samples, bodies_moved(chain, true));
     case PlotQuantity::lambda:
       return columns(trajectory.lambda, numbered("lambda", trajectory.rows), samples);
     case PlotQuantity::constraint_error:

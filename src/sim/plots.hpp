@@ -75,6 +75,7 @@ struct PlotCurve {
   std::vector<double> y;  // a number a sample; an effective mass may be infinite
   bool is_bound = false;  // what the others are held against
   double shown_low = -HUGE_VAL, shown_high = HUGE_VAL;  // what plots show of it, where it may run off to a pole
+  int body = 0;           // whose coordinate, rate, torque or place it is; 0: of none, or of several
   double alone = 0;       // the largest size of samples that are left out as each stands far above all others: on a pole, or a needle
 };
 struct PlotCurves {

@@ -113,5 +113,22 @@ TEST_F(Annotate, SaysWhatIsWrong) {
               HasSubstr("'annotate.1' and 'annotate.2' overlap: both stand at 1 s"));
 }
 
+// Whoever asks for the first second of a scene need not rewrite it: what the file has behind that is left out, and said. What the command line
+// itself says, and a file that contradicts itself, is an error.
+TEST_F(Annotate, BehindTheEndThatTheCommandLineSaysIsLeftOut) {
+  const std::string text = "slow_motion: [{from: 0.2, until: 0.4, speed: 0.5}, {from: 3, until: 4, speed: 0.5}]\n"
+                           "annotate: [{at: 0.5, text: a, point: gripper}, {at: 5, text: b, point: gripper}]\n";
+  const Scene whole = read(text), shorter = read(text, {"duration=1"});
+  EXPECT_EQ(whole.annotate.size(), 2u);
+  EXPECT_THAT(whole.notices, testing::IsEmpty());
+  ASSERT_EQ(shorter.annotate.size(), 1u);
+  EXPECT_EQ(shorter.annotate[0].at, 0.5);
+  EXPECT_EQ(shorter.slow_motion.size(), 1u);
+  EXPECT_THAT(shorter.notices, testing::UnorderedElementsAre(HasSubstr("'slow_motion.2' of the scene is left out"), HasSubstr("'annotate.2' of the scene is left out")));
+  EXPECT_THAT(error(text + "duration: 1\n"), HasSubstr("'slow_motion.2.from' lies at or behind the end"));
+  EXPECT_THAT(error(text, {"duration=1", "annotate=[{at: 5, text: b, point: gripper}]"}), HasSubstr("'annotate.1.at' is 5 s, but the motion goes from 0 to 1 s"));
+  EXPECT_THAT(error(text, {"duration=1", "slow_motion=[{from: 3, until: 4, speed: 0.5}]"}), HasSubstr("lies at or behind the end"));
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -112,6 +112,17 @@ TEST(Plots, EvaluateExpressionsAtTheSamples) {
   }
 }
 
+// Curves say whose they are, so that pictures can draw them as that body: of joints, of places; not of two bodies, nor of none.
+TEST(Plots, SayWhoseTheyAre) {
+  const auto plots = curves_of({{"q", "", {}}, {"tau", "", {}}, {"q2", "", {}}, {"qd1^2 + t", "", {}}, {"k * y_G", "", {}}, {"q1 + q2", "", {}}, {"t^2", "", {}}, {"energy", "", {}}});
+  std::vector<std::vector<int>> bodies;
+  for (const PlotCurves& plot : plots) {
+    bodies.emplace_back();
+    for (const PlotCurve& curve : plot.curves) bodies.back().push_back(curve.body);
+  }
+  EXPECT_EQ(bodies, (std::vector<std::vector<int>>{{1, 2}, {1, 2}, {2}, {1}, {2}, {0}, {0}, {0, 0, 0}}));
+}
+
 // Samples beside a pole are as high as chance has it: the curve is cut there; one that only jumps, or is steep, is whole. q1 = t.
 TEST(Plots, AreCutAtPoles) {
   Simulation run = run_of("pp", {"0", "0"}, 2, "rk4", 0.01);

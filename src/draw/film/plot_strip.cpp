@@ -40,7 +40,15 @@ bool is_of_ellipse(PlotQuantity quantity) {
   return quantity == PlotQuantity::effective_mass || quantity == PlotQuantity::energy_speed;
 }
 
-// Curves are told apart by place, or by the run they belong to.
+// Between a colour and what it stands on, as far as words and lines stay seen.
+Color paler(Color color, Color ground) {
+  constexpr double kStrength = 0.6;
+  const auto mixed = [](std::uint8_t one, std::uint8_t other) { return std::uint8_t(std::lround(kStrength * one + (1 - kStrength) * other)); };
+  return {mixed(color.r, ground.r), mixed(color.g, ground.g), mixed(color.b, ground.b), color.a};
+}
+
+// Curves are told apart by place, or by the run they belong to. One of a single body has the colour of what that body draws: its link, its
+// trail; those of constraints that of their arrows, in two tones.
 CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, std::size_t runs,
                     const Theme& theme) {
   CurveStyle style = curve_style(int(runs > 1 ? run : curve), theme);
@@ -51,12 +59,14 @@ CurveStyle style_of(const PlotCurves& plot, std::size_t curve, std::size_t run, 
     style.dash = plot.curves.size() > 1 ? Dash(curve % 4) : Dash::solid;
     return style;
   }
-  if (curve < theme.curve.size()) style.color = theme.curve[curve];
+  const auto hue = plot.curves[curve].body > 0 ? std::size_t(plot.curves[curve].body - 1) : curve;
+  if (hue != curve) style.color = curve_style(int(hue), theme).color;
+  if (hue < theme.curve.size()) style.color = theme.curve[hue];
   if (plot.quantity == PlotQuantity::energy && curve + 1 == plot.curves.size())
     return {theme.ink, theme.lines * kTotalLine, Dash::solid, Marker::none};
   if (is_of_ellipse(plot.quantity)) return {theme.ellipse, style.width, Dash(curve % 4), Marker::none};  // as its axes
   const bool is_of_constraint = plot.quantity == PlotQuantity::lambda || plot.title.find("lambda") != std::string::npos;
-  if ((is_of_constraint && plot.curves.size() == 1) || plot.formula == "cop") style.color = theme.constraint;  // as its arrow
+  if (is_of_constraint || plot.formula == "cop") style.color = curve % 2 == 0 ? theme.constraint : paler(theme.constraint, theme.background);
   return style;
 }
 

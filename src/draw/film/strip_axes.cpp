@@ -12,6 +12,7 @@ constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a co
 constexpr double kRangeAir = 0.06;        // of the range, above and below
 constexpr double kShareOfSteady = 0.35;   // of its size: what changes by less is shown with zero
 constexpr double kSpanOfLog = 100;    // times the least: more has a log axis
+constexpr double kMostOfLog = 1000;    // times the least: up to there
 constexpr double kResolved = 2;       // times the sample beside it: what grows faster is as high as chance has it
 constexpr double kLongestFrame = 0.05;  // s
 constexpr double kRoundTime = 0.1;    // s: a clip ends at a multiple that its last frame nearly reaches
@@ -26,7 +27,8 @@ bool runs_differ(const StripData& data, double span) {
          });
 }
 
-// Up to the highest number that samples tell: at a pole they stand ever farther apart, and the curve leaves the plot.
+// Up to the highest number that samples tell: at a pole they stand ever farther apart, and the curve leaves the plot; never so high that the
+// curve elsewhere is at its bottom, as samples at the pole would have it.
 Axis pole_axis(const StripData& data, double low) {
   double high = low;
   for (const StripCurve& curve : data.curves) {
@@ -37,6 +39,7 @@ Axis pole_axis(const StripData& data, double low) {
       if (std::isfinite(beside) && beside < kResolved * points[k].y && points[k].y < kResolved * below) high = std::max(high, points[k].y);
     }
   }
+  high = std::min(high, kMostOfLog * low);
   const double air = std::pow(high / low, kRangeAir);
   return {Scale::log, low / air, high, data.title};
 }

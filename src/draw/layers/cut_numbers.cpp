@@ -47,7 +47,8 @@ std::vector<Passage> passages_of(const std::vector<CutLength>& lengths, std::siz
   return passages;
 }
 
-// The largest number of one digit below it.
+}  // namespace
+
 std::string bound_below(double least) {
   if (!std::isfinite(least)) return "";
   const double decade = std::pow(10.0, std::floor(std::log10(least)));
@@ -55,8 +56,6 @@ std::string bound_below(double least) {
   if (!(digit * decade < least)) --digit;
   return "> " + (digit > 0 ? format_digits(digit * decade, 1) : format_digits(0.9 * decade, 1));
 }
-
-}  // namespace
 
 std::vector<CutNumber> numbers_along(const std::vector<CutLength>& lengths, double fps) {
   const std::size_t count = lengths.size();

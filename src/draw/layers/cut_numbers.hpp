@@ -16,6 +16,9 @@ using CutLength = std::optional<double>;
 // Those of the curve's axes, as many as there are, the longest on the page first.
 std::vector<CutLength> cut_lengths(const std::vector<MassAxis>& axes, Point center, const Camera& camera, const EllipseStyle& style);
 
+// "> 30": the largest number of one digit below it; "" of what is infinite.
+std::string bound_below(double least);
+
 // What is said of one axis at each frame of a film of so many a second.
 std::vector<CutNumber> numbers_along(const std::vector<CutLength>& lengths, double fps);
 

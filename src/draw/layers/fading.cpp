@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/format.hpp"
+#include "draw/layers/cut_numbers.hpp"
 #include "draw/page/mark_labels.hpp"
 #include "draw/page/sheet.hpp"
 
@@ -115,7 +116,9 @@ Fade fade_of(const EllipseStyle& style, Point center, const Spread& spread) {
 
 Fade fade_of(const Rect& scene, Point center, const Spread& spread, double most, double per_excess) {
   const Rect room{scene.x0 - center.x, scene.y0 - center.y, scene.x1 - center.x, scene.y1 - center.y};
-  const auto stretch = [&](double reach, double way) { return std::clamp(per_excess * (reach - way), 0.0, most); };
+  // Before it gets there, so that a tip that just passes an edge is not cut flat.
+  constexpr double kBefore = 0.03;
+  const auto stretch = [&](double reach, double way) { return std::clamp(per_excess * (reach - way + kBefore), 0.0, most); };
   const auto& [xx, xy, yy] = spread;
   return {scene, stretch(farthest(xx, xy, yy, -room.y1, -room.y0), -room.x0),
           stretch(farthest(xx, xy, yy, room.y0, room.y1), room.x1),
@@ -292,8 +295,12 @@ CutEnd cut_end(Point center, Point v, double length, const EllipseStyle& style) 
   const Point d = dot(v, style.outward) < 0 ? -1 * unit(v) : unit(v);
   const double way = way_out(style.scene, center, d), reached = std::clamp((norm(v) - way) / kAppearing, 0.0, 1.0);
   const double strength = style.stands ? std::round(reached) : reached;
+  // The number of one that leads so far out says how near to the singular pose the picture happens to be, and nothing of the robot.
+  constexpr double kFarOut = 100;  // units of H
+  const std::string far_bound = norm(v) > kFarOut ? bound_below(kFarOut / norm(v) * length) : "";
   const auto said = std::ranges::find(style.cut_numbers, length, &CutNumber::length);
-  if (said == style.cut_numbers.end()) return {d, way, strength, ""};
+  if (said == style.cut_numbers.end()) return {d, way, strength, far_bound};
+  if (said->bound.empty()) return {d, way, std::min(strength, said->opacity), far_bound};
   return {d, way, std::min(strength, said->opacity), said->bound};
 }
 

@@ -9,7 +9,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kPeakStays = 0.2;     // s before and after what is cut: the number comes and goes in it, and has time to be read
+constexpr double kPeakStays = 0.2;     // s after what is cut, in which the number goes
 constexpr double kSamePassage = 0.6;         // s between two that are told as one
 constexpr double kStillActs = 0.1;  // of what is cut: below this a number stands only as long as it takes to be read
 
@@ -39,20 +39,16 @@ std::vector<NumberedPassage> cut_passages(const std::vector<double>& values, dou
   return passages;
 }
 
-// Goes on on both sides for as long as it stays, within [first, last), but for what is another sense or next to nothing: unless
-// what is left would be too short to be read.
-void lengthen(NumberedPassage& passage, const std::vector<double>& values, double cut, int first, int last, int stays, int shortest) {
+// Goes on behind its end for as long as it stays, until `last`, but for what is another sense or next to nothing: unless what is left would be
+// too short to be read. Never before its beginning: beside an arrow that has not got there a number would be read as its.
+void lengthen(NumberedPassage& passage, const std::vector<double>& values, double cut, int last, int stays, int shortest) {
   const auto acts = [&](int k) {
     const double value = values[std::size_t(k)];
     return in_one_sense(value, passage.value) && std::abs(value) > kStillActs * cut;
   };
-  const int begin = std::max(first, passage.begin - stays), end = std::min(last, passage.end + stays);
-  while (passage.begin > begin && acts(passage.begin - 1)) --passage.begin;
+  const int end = std::min(last, passage.end + stays);
   while (passage.end < end && acts(passage.end)) ++passage.end;
-  while (passage.end - passage.begin < shortest && (passage.begin > first || passage.end < last)) {
-    if (passage.end < last) ++passage.end;
-    if (passage.begin > first && passage.end - passage.begin < shortest) --passage.begin;
-  }
+  passage.end = std::max(passage.end, std::min(last, passage.begin + shortest));
 }
 
 bool is_said_alike(const NumberedPassage& passage, const std::vector<double>& values) {
@@ -69,8 +65,8 @@ std::vector<std::optional<Peak>> peaks_along(const std::vector<double>& values, 
   std::vector<NumberedPassage> passages = cut_passages(values, cut, int(std::lround(kSamePassage * fps)));
   for (std::size_t i = 0; i < passages.size(); ++i) {
     NumberedPassage& passage = passages[i];
-    lengthen(passage, values, cut, i > 0 ? passages[i - 1].end : 0, i + 1 < passages.size() ? passages[i + 1].begin : count, stays, shortest);
-    if (passage.end - passage.begin < shortest) continue;
+    lengthen(passage, values, cut, i + 1 < passages.size() ? passages[i + 1].begin : count, stays, shortest);
+    if (passage.end - passage.begin < shortest && passage.end < count) continue;  // the film's last picture stays
     const Peak peak{passage.value, is_said_alike(passage, values)};
     std::fill(peaks.begin() + passage.begin, peaks.begin() + passage.end, peak);
   }

@@ -10,7 +10,7 @@ constexpr double kLongestPause = 3600;  // s
 constexpr const char* kAnnotation = "{at: 1.2s, text: \"heaviest along the arm\", point: gripper, hold: 1s}";
 
 // One entry of the list; false where something is wrong that has been told.
-bool read_annotation(Fields& inner, const Scene& scene, AnnotationEntry& entry) {
+bool read_annotation(Fields& inner, const Scene& scene, AnnotationEntry& entry, bool may_be_beyond) {
   bool good = true;
   const auto problem = [&](const char* key, const std::string& message) {
     good = false;
@@ -23,7 +23,7 @@ bool read_annotation(Fields& inner, const Scene& scene, AnnotationEntry& entry) 
                       ", like " + kAnnotation);
   if (has_at && !inner.read_seconds("at", entry.at))
     good = false;
-  else if (has_at && !(entry.at >= 0 && entry.at <= scene.duration))
+  else if (has_at && !(entry.at >= 0 && (entry.at <= scene.duration || may_be_beyond)))
     problem("at", "is " + format_shortest(entry.at) + " s, but the motion goes from 0 to " +
                       format_shortest(scene.duration) + " s");
   good &= names_event(inner, scene, entry.event);
@@ -108,6 +108,8 @@ void read_annotate(Fields& fields, Scene& scene) {
   if (!node.IsDefined() || node.IsNull()) return;
   if (!node.IsSequence())
     return fields.problem_at("annotate", std::string("'annotate' must be a list of entries: [") + kAnnotation + "]");
+  const bool may_be_beyond = fields.cuts_short("annotate");
+  std::size_t beyond = 0;
   for (std::size_t i = 0; i < node.size(); ++i) {
     const std::string key = "annotate." + std::to_string(i + 1);
     AnnotationEntry entry;
@@ -117,9 +119,15 @@ void read_annotate(Fields& fields, Scene& scene) {
       continue;
     }
     Fields inner(fields.document(), node[i], key, fields.problems());
-    if (read_annotation(inner, scene, entry)) scene.annotate.push_back(entry);
+    if (!read_annotation(inner, scene, entry, may_be_beyond)) continue;
+    if (entry.at <= scene.duration) {
+      scene.annotate.push_back(entry);
+      continue;
+    }
+    ++beyond;
+    scene.notices.push_back(left_out_beyond(key, scene));
   }
-  if (scene.annotate.size() == node.size()) refuse_same_instants(fields, scene);
+  if (scene.annotate.size() + beyond == node.size()) refuse_same_instants(fields, scene);
 }
 
 }  // namespace chainreel

@@ -318,4 +318,10 @@ void Fields::finish(const std::string& topic) {
   }
 }
 
+bool Fields::is_of_command_line(const std::string& key) const {
+  return std::ranges::any_of(document_->origins, [&](const Origin& one) {
+    return one.command_line && (one.key == key || one.key.starts_with(key + "."));
+  });
+}
+
 }  // namespace chainreel

@@ -80,6 +80,10 @@ class Fields {
 
   ProblemList& problems() { return *problems_; }
   const YamlDocument& document() const { return *document_; }
+  // Whether the command line says this key, or one below it.
+  bool is_of_command_line(const std::string& key) const;
+  // Whether the command line makes the motion of the file shorter, by which what `key` has there may begin too late.
+  bool cuts_short(const std::string& key) const { return is_of_command_line("duration") && !is_of_command_line(key); }
 
  private:
   std::optional<std::string> scalar(const YAML::Node& node, const std::string& key,

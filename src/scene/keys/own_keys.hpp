@@ -90,6 +90,8 @@ std::string style_text(const Scene& scene);
 // --- the film: slow_motion_keys.cpp
 KeyText told_slow_motion();
 void read_slow_motion(Fields& fields, Scene& scene);
+// What is said of an entry of the file that Fields::cuts_short leaves nothing of.
+std::string left_out_beyond(const std::string& key, const Scene& scene);
 std::string slow_motion_text(const Scene& scene);
 
 // --- what is pointed at: annotate_keys.cpp

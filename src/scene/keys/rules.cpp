@@ -9,20 +9,15 @@
 namespace chainreel {
 namespace {
 
-bool is_of_command_line(const Fields& fields, const std::string& key) {
-  const std::vector<Origin>& origins = fields.document().origins;
-  return std::any_of(origins.begin(), origins.end(), [&](const Origin& one) { return one.key == key && one.command_line; });
-}
-
 // Keys that go with a method. Where the command line names another one, those of the file that do not go with it are left
 // out, which is said; what the command line itself says is never passed over.
 class MethodKeys {
  public:
-  MethodKeys(Fields& fields, Scene& scene) : fields_(fields), scene_(scene), is_replaced_(is_of_command_line(fields, "method")) {}
+  MethodKeys(Fields& fields, Scene& scene) : fields_(fields), scene_(scene), is_replaced_(fields.is_of_command_line("method")) {}
 
   // True where the key was left out; else it is a problem.
   bool leave_out(const std::string& key, const std::string& problem) {
-    if (!is_replaced_ || is_of_command_line(fields_, key)) {
+    if (!is_replaced_ || fields_.is_of_command_line(key)) {
       fields_.problem_at(key, problem);
       return false;
     }
@@ -35,7 +30,7 @@ class MethodKeys {
     return true;
   }
 
-  bool stands_in_the_file(const std::string& key) const { return !is_of_command_line(fields_, key); }
+  bool stands_in_the_file(const std::string& key) const { return !fields_.is_of_command_line(key); }
 
  private:
   Fields& fields_;

@@ -20,10 +20,14 @@ class StretchReader {
  public:
   StretchReader(Fields& fields, const YAML::Node& node, const std::string& key)
       : inner_(fields.document(), node, key, fields.problems()),
+        cuts_short_(fields.cuts_short("slow_motion")),
         key_(key),
         place_(fields.place_of(node, key)) {}
 
-  // False where something is wrong that has been told.
+  // Begins behind the end that the command line gives the motion: nothing is wrong with it.
+  bool is_beyond() const { return is_beyond_; }
+
+  // False where something is wrong that has been told, or it is beyond.
   bool read(const Scene& scene, SlowMotionEntry& entry) {
     inner_.read("event", entry.event);
     const bool complete =
@@ -68,11 +72,14 @@ class StretchReader {
     if (entry.from < 0)
       return complain("must not lie before 0 s; seconds before an event go with `event: NAME`", "from");
     if (entry.from < scene.duration) return true;
+    if (cuts_short_) is_beyond_ = true;
+    if (cuts_short_) return false;
     return complain("lies at or behind the end of the motion, " + format_shortest(scene.duration) + " s",
                     "from");
   }
 
   Fields inner_;
+  bool cuts_short_, is_beyond_ = false;
   std::string key_;
   Place place_;
 };
@@ -186,6 +193,11 @@ std::string slow_motion_text(const Scene& scene) {
   });
 }
 
+std::string left_out_beyond(const std::string& key, const Scene& scene) {
+  return "'" + key + "' of the scene is left out: it begins behind the end of the motion, " + format_shortest(scene.duration) +
+         " s, that the command line says";
+}
+
 void read_slow_motion(Fields& fields, Scene& scene) {
   const YAML::Node node = fields.find("slow_motion");
   if (!node.IsDefined() || node.IsNull()) return;
@@ -200,16 +212,21 @@ void read_slow_motion(Fields& fields, Scene& scene) {
     return fields.problem_at("slow_motion", std::string("'slow_motion' must be auto, none, numbers for what is slowed down by itself: "
                                                         "{speed: 0.25, turn: 15deg}, or a list of stretches: [") +
                                                 kExample + ", {event: NAME, from: -0.2s, until: 0.3s, speed: 0.1}]");
+  std::size_t beyond = 0;
   for (std::size_t i = 0; i < node.size(); ++i) {
     const std::string key = "slow_motion." + std::to_string(i + 1);
+    if (!node[i].IsMap()) {
+      fields.problems().add("'" + key + "' must be a stretch like " + kExample, fields.place_of(node[i], key));
+      continue;
+    }
     SlowMotionEntry entry;
-    if (!node[i].IsMap())
-      fields.problems().add("'" + key + "' must be a stretch like " + kExample,
-                            fields.place_of(node[i], key));
-    else if (StretchReader(fields, node[i], key).read(scene, entry))
-      scene.slow_motion.push_back(entry);
+    StretchReader reader(fields, node[i], key);
+    if (reader.read(scene, entry)) scene.slow_motion.push_back(entry);
+    if (!reader.is_beyond()) continue;
+    ++beyond;
+    scene.notices.push_back(left_out_beyond(key, scene));
   }
-  if (scene.slow_motion.size() < node.size()) return;
+  if (scene.slow_motion.size() + beyond < node.size()) return;
   refuse_overlaps(fields, node, scene);
   check_length(fields, node, scene);
 }

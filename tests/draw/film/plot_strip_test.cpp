@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/page/house_style.hpp"
 #include "draw/shapes.hpp"
 
 namespace chainreel {
@@ -283,6 +284,41 @@ TEST(PlotStrip, MassesLeaveThePlotAtTheirPoles) {
   strip(100.3).draw_static(picture);
   EXPECT_TRUE(test::all_finite(picture));
   EXPECT_GT(right_end(picture, light_theme().ellipse.faded(0.45)), kStripArea.x0) << "as the axes of the ellipse";
+}
+
+// Samples on the pole itself, as where a film stands still there, do not press the rest of the curve to its bottom.
+TEST(PlotStrip, PolesHaveThreeDecadesAtMost) {
+  const Fonts fonts;
+  std::vector<double> masses;
+  for (int k = 0; k <= 200; ++k) masses.push_back(k >= 100 && k < 110 ? 1e6 : 2 + k % 10);
+  StripRun run = run_of("a", false, masses);
+  run.plots[0].quantity = PlotQuantity::effective_mass;
+  const Axis axis = PlotStrip(strip_data({run}, 0, 200, light_theme()), kStripArea, style_of(fonts)).frame().y;
+  EXPECT_NEAR(axis.high, 2000, 1e-9);
+}
+
+// A curve of one body has its colour, whichever place it has in its plot; those of constraints have that of their arrows, in two tones.
+TEST(PlotStrip, CurvesHaveTheColourOfWhatTheyAreOf) {
+  const auto colours = [](PlotCurves plot) {
+    StripRun run = run_of("a", false, {0, 1, 2});
+    for (PlotCurve& curve : plot.curves) curve.y = {0, 1, 2};
+    run.plots = {std::move(plot)};
+    std::vector<Color> found;
+    for (const StripCurve& curve : strip_data({run}, 0, 2, light_theme()).curves) found.push_back(curve.style.color);
+    return found;
+  };
+  PlotCurves second, row;
+  second.curves = {{"q2", {}}};
+  second.curves[0].body = 2;
+  EXPECT_EQ(colours(second), (std::vector<Color>{light_theme().curve[1]}));
+  second.curves[0].body = 0;
+  EXPECT_EQ(colours(second), (std::vector<Color>{light_theme().curve[0]})) << "of none";
+  row.quantity = PlotQuantity::lambda;
+  row.curves = {{"lambda1", {}}, {"lambda2", {}}};
+  const auto tones = colours(row);
+  EXPECT_EQ(tones[0], light_theme().constraint);
+  EXPECT_NE(tones[1], tones[0]);
+  EXPECT_GE(contrast(tones[1], light_theme().background), 3) << "as marks have";
 }
 
 // Of a mass that is infinite all along there is no curve, but that is said.

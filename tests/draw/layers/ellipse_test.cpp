@@ -171,8 +171,8 @@ TEST(Ellipse, HasNoInfinitySignWhereJIsRegular) {
     }
 }
 
-// As the axis grows beyond the edge, the curve fades over no more than it leads out, and the mass comes in
-// gradually: between two frames of a film nothing flashes.
+// As the axis grows beyond the edge, the curve fades over 0.03 H more than it leads out, so that its tip is never cut flat, and the mass comes
+// in gradually: between two frames of a film nothing flashes.
 TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
   const Point middle{0.8875, 0.5};  // 0.8425 from both edges
   for (const double excess : {0.001, 0.01, 0.05, 0.3}) {
@@ -180,7 +180,7 @@ TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
     const EllipseStyle style{&light_theme(), &fonts(), 1, 0.8425 + excess, {0.045, 0.11, 1.73, 0.87}};
     Picture picture;
     draw_mass_ellipse(picture, axes, middle, {}, style, -1);
-    const double stretch = std::min(excess, size::kEllipseFade);
+    const double stretch = std::min(excess + 0.03, size::kEllipseFade);
     const auto ellipses = test::all_of<Ellipse>(picture);
     ASSERT_EQ(ellipses.size(), 1u);
     EXPECT_EQ(ellipses[0].paint.stroke_width, size::kEllipseLine);
@@ -192,7 +192,7 @@ TEST(Ellipse, FadesGraduallyAsItOutgrowsItsScene) {
     EXPECT_EQ(words[0].text, "1.00 kg");
     EXPECT_NEAR(words[0].color.a, std::min(1.0, excess / 0.02), 1e-9);
   }
-  // Just inside, it is whole.
+  // Inside it has no number, and farther from the edge it is whole.
   Picture whole;
   draw_mass_ellipse(whole, {{1, Eigen::Vector3d::UnitX()}, {0.1, Eigen::Vector3d::UnitY()}}, middle, {},
                     {&light_theme(), &fonts(), 1, 0.8424, {0.045, 0.11, 1.73, 0.87}}, -1);
