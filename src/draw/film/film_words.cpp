@@ -176,8 +176,14 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
   std::vector<StandingWord> words = standing_in(panels_[panel].area, panels_[panel].words.at(frame), wishes);
   // A number that is told otherwise than in the film has other boxes at its places, which may lie on what the film's keep off.
   const std::vector<StandingWord> in_film = standing(stage, layers, view, panels, panel, frame);
+  const auto lies_on_word = [&](std::size_t i) {
+    for (std::size_t j = 0; j < words.size(); ++j)
+      if (j != i && words[j].opacity > 0 && overlap(words[i].box, words[j].box)) return true;
+    return false;
+  };
   for (std::size_t i = 0; i < std::min(words.size(), in_film.size()); ++i)
-    if (std::abs(words[i].box.width() - in_film[i].box.width()) > kRoundOff && !wishes[i].leader && lies_on(words[i].box, obstacles)) words[i].opacity = 0;
+    if (std::abs(words[i].box.width() - in_film[i].box.width()) > kRoundOff && !wishes[i].leader && (lies_on(words[i].box, obstacles) || lies_on_word(i)))
+      words[i].opacity = 0;
   const auto is_left_out = [](const StandingWord& word) { return !(word.opacity > 0); };
   const bool has_left_out = std::any_of(words.begin(), words.end(), is_left_out);
   for (StandingWord& word : words) word.opacity = is_left_out(word) ? 0 : 1;
