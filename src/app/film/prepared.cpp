@@ -148,6 +148,13 @@ Parameters set_parameters(const Scene& scene) {
   return set;
 }
 
+// What the coordinates of all panels are measured in; of models that differ in that nothing.
+CoordinateUnits shared_units(const std::vector<PreparedScene>& panels) {
+  const CoordinateUnits units = units_of(panels.front().simulation.chain);
+  const auto has_these = [&](const PreparedScene& panel) { return units_of(panel.simulation.chain) == units; };
+  return std::ranges::all_of(panels, has_these) ? units : CoordinateUnits{};
+}
+
 void notice_the_page(PreparedFilm& film) {
   std::vector<std::string>& notices = film.panels.front().scene.notices;
   for (PreparedScene& panel : film.panels)
@@ -187,7 +194,7 @@ PreparedFilm film_of(Scene scene, bool meshes, bool quiet, const std::optional<O
   if (meshes) film.references = references_of(film.scene);
   film.panels = prepare_panels(film.scene.compare, meshes, quiet, between);
   for (std::size_t i = 0; i < film.panels.size(); ++i) film.scene.compare[i] = film.panels[i].scene;
-  name_panels(film.scene.compare);
+  name_panels(film.scene.compare, shared_units(film.panels));
   for (std::size_t i = 0; i < film.panels.size(); ++i)
     film.panels[i].scene.title = film.scene.compare[i].title;
   check_words(film);
@@ -205,16 +212,22 @@ void leave_events_out(PreparedScene& prepared) {
 
 PreparedScene load_motion(const std::string& path, const std::vector<std::string>& overrides, int panel, bool quiet) {
   Scene scene = read_scene(path, overrides, MethodsOf::command);
+  std::vector<Scene> panels;
+  std::size_t chosen = 0;
   if (panel == 0 && !scene.compare.empty() && differ_by_method_alone(scene.compare)) {
     const std::string title = scene.title;
     scene = Scene(scene.compare.front());
     scene.title = title;
-  } else if (const std::size_t chosen = chosen_panel(scene, panel); !scene.compare.empty()) {
-    name_panels(scene.compare);
-    scene = Scene(scene.compare[chosen]);
+  } else if (chosen = chosen_panel(scene, panel); !scene.compare.empty()) {
+    panels = scene.compare;
+    scene = panels[chosen];
   }
   PreparedScene prepared{std::move(scene), {}, {}, nullptr};
   prepared.simulation = prepare(prepared.scene, false);
+  if (!panels.empty()) {
+    name_panels(panels, units_of(prepared.simulation.chain));
+    prepared.scene.title = panels[chosen].title;
+  }
   leave_events_out(prepared);
   say_notices(prepared, quiet);
   return prepared;

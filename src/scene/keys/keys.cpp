@@ -49,19 +49,20 @@ std::vector<Chapter> chapters() {
             .in("m/s^2")
             .absent("9.81 downwards: -y of planar chains, -z in space")
             .of_model(OfModel::mechanism),
-        Row("base", &Scene::base, "how the root link is held").of_model(OfModel::mechanism),
+        Row("base", &Scene::base, "how the root link is held").caption("@ base").of_model(OfModel::mechanism),
         Row("friction", &Scene::friction, "the model's joint damping and friction act").of_model(OfModel::mechanism),
         Row("massless", &Scene::massless, "mass that moving links without inertia get")
             .in("kg")
             .above(0)
             .hint(", like 1e-6")
             .absent("such links are an error")
+            .caption("massless links @ kg")
             .of_model(OfModel::mechanism),
         Row::section("payload", "payload: {mass: 2, at: [0.1, 0, 0]}", "a load that the robot carries, as a mass at a point: `--over payload.mass=0:4:5` sweeps it"),
         Row("payload.mass", &Scene::payload, &Payload::mass, "of the load").in("kg").within(0, 1e9).of_model(OfModel::mechanism).seen_at_poses().where(has_payload).caption("payload @ kg"),
-        Row("payload.link", &Scene::payload, &Payload::link, "that carries it").absent("the end effector").of_model(OfModel::mechanism).seen_at_poses().where(has_payload),
+        Row("payload.link", &Scene::payload, &Payload::link, "that carries it").absent("the end effector").caption("payload on @").of_model(OfModel::mechanism).seen_at_poses().where(has_payload),
         Row("payload.at", &Scene::payload, &Payload::at, "where, in that link's frame").in("m").of_model(OfModel::mechanism).seen_at_poses().where(has_payload),
-        Row("limit", &Scene::limit, "what comes of a joint that passes a limit"),
+        Row("limit", &Scene::limit, "what comes of a joint that passes a limit").caption("limits: @"),
         Row(told_packages(), read_packages, write_packages)
             .example("packages: {my_robot: ../robot}")
             .of_model(OfModel::mechanism)}},
@@ -99,12 +100,14 @@ std::vector<Chapter> chapters() {
             .absent("none"),
         Row("stabilize", &Scene::stabilize, "what holds places and rates on the constraints against drift")
             .example("stabilize: baumgarte")
+            .caption("drift: @")
             .where(has_constraints),
         Row::section("baumgarte", "baumgarte: {gain: 10}", "with `stabilize: baumgarte`"),
         Row("baumgarte.gain", &Scene::baumgarte_gain, "how fast errors die away")
             .in("1/s")
             .above(0)
             .hint("; some 10 is good")
+            .caption("Baumgarte gain @ 1/s")
             .where(holds_by_baumgarte),
         Row(told_contact_force(), read_contact_force, contact_force_text)
             .example("contact_force: {constraint: 1, force: [0, -5]}")
@@ -112,14 +115,15 @@ std::vector<Chapter> chapters() {
       {"What is looked at",
        {Row("end_effector", &Scene::end_effector, "the link whose place, trail and effective mass are meant")
             .absent("link `gripper`, else the only end")
+            .caption("end effector @")
             .of_model(OfModel::picture),
         Row(told_frames(), read_frames, write_frames).example("frames: {H: hip}"),
         Row::section("foot", "foot: {heel: -0.06, toe: 0.19, height: 0}",
                      "a root link that stands on the ground: events may read `cop`, the centre of pressure below it, and `grf`, the force up; "
                      "pictures show the force of the ground as an arrow, and where it would have to press beside the foot, or pull at it, say \"holds the foot: a real one would tip\": the chain's foot never turns"),
-        Row("foot.heel", &Scene::foot, &Foot::heel, "along the ground, left of the toe").in("m"),
-        Row("foot.toe", &Scene::foot, &Foot::toe, "along the ground").in("m"),
-        Row("foot.height", &Scene::foot, &Foot::height, "of the ground, against gravity").in("m"),
+        Row("foot.heel", &Scene::foot, &Foot::heel, "along the ground, left of the toe").in("m").caption("heel at @ m"),
+        Row("foot.toe", &Scene::foot, &Foot::toe, "along the ground").in("m").caption("toe at @ m"),
+        Row("foot.height", &Scene::foot, &Foot::height, "of the ground, against gravity").in("m").caption("ground at @ m"),
         Row(told_events(), read_events, events_text)
             .example("events: [{when: \"y_G < 0.5\", kind: mark, name: low}]")
             .absent("none")}},
@@ -154,9 +158,11 @@ std::vector<Chapter> chapters() {
       {"The robot's looks",
        {Row("links", &Scene::links, "bars, or the model's shapes")
             .example("links: plain")
+            .caption("links: @")
             .flag(FlagGroup::view, "--links")
             .of_model(OfModel::picture),
         Row("mesh_up", &Scene::mesh_up, "whose up Collada meshes follow")
+            .caption("mesh up: @")
             .flag(FlagGroup::view, "--mesh-up")
             .of_model(OfModel::picture)}},
       {"The picture",

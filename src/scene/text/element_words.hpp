@@ -1,22 +1,31 @@
-// What panels differ in, in words: of lists their elements, with symbols, as they were written. Internal to this shelf.
+// What panels differ in, in words: of lists their elements, with symbols and units, as they were written. Internal to this shelf.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "scene/text/panels.hpp"
+#include "scene/text/title_values.hpp"
 #include "scene/text/write_scene.hpp"
 
 namespace chainreel {
 
-// "$k_p$" of kp: gains as formulas have them; other names stay.
-std::string symbol_of_gain(const std::string& name);
+// How a list is called: "$q$" and "$q_#$" with a place for the index; "@" in the first is a place for the value, else it stands behind "=".
+struct ListName {
+  std::string whole, element;
+  bool has_axes = false;  // whose elements are of x, y and z
+};
+// "$q_2$ = 30\u00B0" of each: the elements in which they differ, or all of it where all differ, or where they are not equally long.
+// A single value, for all alike, has no index.
+std::vector<std::string> words_of_lists(const ListName& name, const std::vector<std::vector<TitleValue>>& all);
 
-// Signs as one reads them: "\u22120.5" of "-0.5".
-std::string with_minus_signs(const std::string& text);
+// The unit of an element: of a coordinate ("q", "qd", "qdd", "tau"), or itself.
+std::string unit_at(const std::string& unit, std::size_t index, const CoordinateUnits& units);
 
-// What a list of numbers says of each panel, of starts, torques and gravity, where all panels have one of the same length: the elements
-// that differ, "$q_2(0)$ = 30\u00B0", or all of it where all differ. Empty where that cannot be said so. `entries`: one a panel, or null.
-std::vector<std::string> words_by_element(const std::vector<Scene>& panels, const std::vector<const SceneEntry*>& entries);
+// What a list says of each panel, of starts, torques, gravity and a payload's place. Empty where that cannot be said so. `entries`: one a panel, or null.
+std::vector<std::string> words_by_element(const std::vector<const Scene*>& panels, const std::vector<const SceneEntry*>& entries,
+                                          const CoordinateUnits& units);
 
 }  // namespace chainreel

@@ -1,145 +1,191 @@
 #include "scene/text/panels.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
-#include <map>
 #include <set>
 
 #include <yaml-cpp/yaml.h>
 
-#include "core/format.hpp"
 #include "integrate/method.hpp"
+#include "model/model_description.hpp"
 #include "scene/keys/keys.hpp"
 #include "scene/text/element_words.hpp"
+#include "scene/text/leaf_words.hpp"
+#include "scene/text/title_values.hpp"
 #include "scene/text/write_scene.hpp"
 
 namespace chainreel {
 namespace {
 
-// A list as one writes a vector: (1, 0).
 // Without braces, which a title fills.
 std::string in_words(std::string text) {
   std::erase_if(text, [](char c) { return c == '{' || c == '}'; });
-  if (text.starts_with('[') && text.ends_with(']')) {
-    text.front() = '(';
-    text.back() = ')';
-  }
-  return with_minus_signs(text);
+  return text;
 }
 
-// Numbers of more digits than one reads, such as those of degrees in rad, with four of them.
-std::string rounded(const std::string& text) {
-  constexpr std::size_t kReadable = 7;
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    std::size_t end = i;
-    while (end < text.size() && (std::isdigit(static_cast<unsigned char>(text[end])) || text[end] == '.')) ++end;
-    const std::string word = text.substr(i, std::max<std::size_t>(end - i, 1));
-    const bool is_long = word.size() > kReadable && word.find('.') != std::string::npos;
-    const std::optional<double> number = is_long ? parse_number(word) : std::nullopt;
-    result += number ? format_significant(*number, 4) : word;
-    i += word.size();
-  }
-  return result;
+// A list as one writes a vector: (1, 0).
+std::string value_of(const SceneEntry& entry, const std::string& unit) {
+  const YAML::Node node = YAML::Load(entry.text);
+  if (!node.IsSequence()) return in_words(joined_value(title_value(node.IsScalar() ? node.Scalar() : entry.text, unit)));
+  std::vector<TitleValue> values;
+  for (const YAML::Node& one : node) values.push_back(title_value(one.IsScalar() ? one.Scalar() : "..", unit));
+  return in_words(joined_values(values));
 }
 
-std::string words_of(const SceneEntry& entry) {
+enum class Length { brief, whole };
+
+std::string words_of(const SceneEntry& entry, Length length) {
   const SceneKey& key = *find_key(entry.key);
-  if (key.form == KeyForm::path) return std::filesystem::path(entry.text).stem().string();
-  const std::string value = entry.key == "method" ? method_title(entry.text) : in_words(entry.text);
-  if (key.caption.empty()) return entry.key.substr(entry.key.find('.') + 1) + " = " + value;
+  const bool is_path = key.form == KeyForm::path || key.name == "packages" || (!entry.text.empty() && (key.name == "model" || key.name == "motion") && entry.text.front() != '{');
+  const std::string name = entry.key.substr(entry.key.find('.') + 1);
+  if (is_path) {
+    const std::filesystem::path path = entry.text;
+    const std::string own = length == Length::brief ? path.stem().string() : (path.parent_path().filename() / path.filename()).string();
+    return (key.name == "motion" ? "motion " : "") + own;
+  }
+  if (key.form == KeyForm::truth && key.caption.empty()) return (entry.text == "true" ? "" : "no ") + name;
+  const bool has_one_unit = key.caption.empty() && key.unit.find(" or ") == std::string::npos && key.unit.find('^') == std::string::npos;
+  const std::string value = entry.key == "method" ? method_title(entry.text) : value_of(entry, has_one_unit ? key.unit : "");
+  if (key.caption.empty()) return name + " = " + value;
   std::string words = key.caption;
   return words.replace(words.find('@'), 1, value);
 }
 
-// The values within a mapping, each by the way to it: {"pd.kp", "10"}.
-void add_leaves(const YAML::Node& node, const std::string& way, std::map<std::string, std::string>& leaves) {
-  if (!node.IsMap()) {
-    YAML::Emitter text;
-    text << YAML::Flow << node;
-    leaves[way] = node.IsScalar() ? node.Scalar() : text.c_str();
-    return;
-  }
-  for (const auto& entry : node)
-    add_leaves(entry.second, (way.empty() ? "" : way + ".") + entry.first.Scalar(), leaves);
+// Of what is left out beside panels that have it.
+std::string words_of_absent(const SceneEntry& of_other) {
+  const std::string absent = find_key(of_other.key)->absent;
+  const std::string section = find_key(of_other.key)->section();
+  std::string name = section.empty() ? of_other.key.substr(of_other.key.find('.') + 1) : section;
+  std::ranges::replace(name, '_', ' ');
+  return (absent.empty() || absent == "none" ? "no " : "default ") + name;
 }
 
-using Leaves = std::map<std::string, std::string>;
+// What a title says of one key.
+using KeyWords = std::vector<std::string>;  // of each panel
 
-std::string last_part(const std::string& way) {
-  return way.substr(way.rfind('.') + 1);
-}
+using Entries = std::vector<const SceneEntry*>;  // of each panel, null where it is left out
 
-// As in_words, but a list of equal entries, as one number for all becomes, as that entry.
-std::string leaf_in_words(const std::string& text) {
-  if (!text.starts_with('[') || !text.ends_with(']')) return in_words(text);
-  const YAML::Node list = YAML::Load(text);
-  for (const YAML::Node& one : list)
-    if (!one.IsScalar() || one.Scalar() != list[0].Scalar()) return in_words(text);
-  return list.size() == 0 ? in_words(text) : list[0].Scalar();
-}
-
-// What a key says of each panel, where it says a mapping of all: only what differs in it, "kp = 10" rather than all of the
-// torque, by the whole way where two values have one name. Empty where it is no mapping of all panels.
-std::vector<std::string> words_within(const std::vector<const SceneEntry*>& entries) {
-  std::vector<Leaves> all;
-  for (const SceneEntry* entry : entries) {
-    if (entry == nullptr || !entry->text.starts_with('{')) return {};
-    add_leaves(YAML::Load(entry->text), "", all.emplace_back());
-  }
-  std::set<std::string> ways;
-  std::map<std::string, int> names;
-  for (const Leaves& leaves : all)
-    for (const auto& [way, text] : leaves) {
-      const bool is_shared = std::all_of(all.begin(), all.end(), [&, &way = way, &text = text](const Leaves& other) {
-        const auto known = other.find(way);
-        return known != other.end() && known->second == text;
-      });
-      if (!is_shared && ways.insert(way).second) ++names[last_part(way)];
+// Keys that mean something beside a value of another one alone, as a payload's place does beside its mass, are told by that: what is
+// the same wherever it stands says no more.
+void leave_out_what_follows(const std::vector<std::string>& keys, const std::vector<Entries>& entries, std::vector<KeyWords>& all) {
+  static const std::set<std::string> leading{"payload.mass", "motion", "constraints", "stabilize"};
+  const auto follows = [&](std::size_t k) {
+    std::set<std::string> texts;
+    for (const SceneEntry* entry : entries[k])
+      if (entry != nullptr) texts.insert(entry->text);
+    if (texts.size() != 1 || std::ranges::find(entries[k], nullptr) == entries[k].end() || find_key(keys[k])->means_something == nullptr) return false;
+    for (std::size_t g = 0; g < keys.size(); ++g) {
+      if (g == k || !leading.contains(keys[g])) continue;
+      std::set<std::string> with, without;
+      for (std::size_t i = 0; i < entries[k].size(); ++i) (entries[k][i] != nullptr ? with : without).insert(all[g][i]);
+      if (std::ranges::none_of(with, [&](const std::string& one) { return without.contains(one); })) return true;
     }
-  std::vector<std::string> words;
-  for (const Leaves& leaves : all) {
-    std::string& own = words.emplace_back();
-    for (const std::string& way : ways) {
-      const std::string name = names[last_part(way)] > 1 ? way : last_part(way);
-      const auto known = leaves.find(way);
-      own += (own.empty() ? "" : ", ") + (known == leaves.end() ? "no " + name : symbol_of_gain(name) + " = " + leaf_in_words(known->second));
-    }
-  }
-  return words;
+    return false;
+  };
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (!leading.contains(keys[k]) || keys[k] == "stabilize")
+      if (follows(k)) all[k].assign(all[k].size(), "");
 }
 
 // By what they differ in, key by key.
-std::vector<std::string> titles_of(const std::vector<Scene>& panels) {
+std::vector<KeyWords> words_by_key(const std::vector<Scene>& panels, const CoordinateUnits& units, Length length) {
   const std::vector<SceneEntry> shared = shared_entries(panels);
+  std::vector<const Scene*> scenes;
   std::vector<std::vector<SceneEntry>> own;
+  std::vector<std::string> keys;
   for (const Scene& panel : panels) {
+    scenes.push_back(&panel);
     own.push_back(entries_of(panel));
     std::erase_if(own.back(), [&](const SceneEntry& entry) {
       return !find_key(entry.key)->is_captioned || std::find(shared.begin(), shared.end(), entry) != shared.end();
     });
+    for (const SceneEntry& entry : own.back())
+      if (std::ranges::find(keys, entry.key) == keys.end()) keys.push_back(entry.key);
   }
-  const auto find = [](const std::vector<SceneEntry>& entries, const std::string& key) {
-    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const SceneEntry& one) { return one.key == key; });
-    return entry == entries.end() ? nullptr : &*entry;
-  };
-  std::vector<std::string> titles;
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    std::string& title = titles.emplace_back();
-    for (const SceneEntry& entry : own[i]) {
-      std::vector<const SceneEntry*> of_all;
-      for (const auto& entries : own) of_all.push_back(find(entries, entry.key));
-      std::vector<std::string> within = words_by_element(panels, of_all);
-      if (within.empty()) within = words_within(of_all);
-      const std::string words = within.empty() ? words_of(entry) : within[i];
-      if (!words.empty()) title += (title.empty() ? "" : ", ") + words;
+  const auto place = [](const std::string& key) { return find_key(key) - scene_keys().data(); };
+  std::ranges::stable_sort(keys, [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+  std::vector<KeyWords> all;
+  std::vector<Entries> all_entries;
+  for (const std::string& key : keys) {
+    Entries entries;
+    for (const std::vector<SceneEntry>& list : own) {
+      const auto entry = std::ranges::find(list, key, &SceneEntry::key);
+      entries.push_back(entry == list.end() ? nullptr : &*entry);
     }
+    KeyWords words = words_by_leaf(scenes, entries, units);
+    if (words.empty()) words = words_by_element(scenes, entries, units);
+    if (words.empty())
+      for (const SceneEntry* entry : entries) words.push_back(entry == nullptr ? "" : words_of(*entry, length));
+    all.push_back(std::move(words));
+    all_entries.push_back(std::move(entries));
+  }
+  leave_out_what_follows(keys, all_entries, all);
+  // Who has none of these keys, or only some that say nothing, is told by the first that it lacks.
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    if (std::ranges::all_of(all, [i](const KeyWords& words) { return words[i].empty(); }))
+      for (std::size_t k = 0; k < keys.size(); ++k)
+        if (const auto other = std::ranges::find_if(all_entries[k], [](const SceneEntry* entry) { return entry != nullptr; }); other != all_entries[k].end()) {
+          all[k][i] = words_of_absent(**other);
+          break;
+        }
+  return all;
+}
+
+std::vector<std::string> joined_keys(const std::vector<KeyWords>& keys, std::size_t count, std::size_t panels) {
+  std::vector<std::string> titles(panels);
+  for (std::size_t i = 0; i < panels; ++i)
+    for (std::size_t k = 0; k < count; ++k)
+      if (!keys[k][i].empty()) titles[i] += (titles[i].empty() ? "" : ", ") + keys[k][i];
+  return titles;
+}
+
+bool are_apart(const std::vector<std::string>& titles) {
+  return std::set<std::string>(titles.begin(), titles.end()).size() == titles.size();
+}
+
+std::vector<std::string> readable(std::vector<std::string> titles) {
+  for (std::string& title : titles) title = with_readable_numbers(title);
+  return titles;
+}
+
+// As many keys as fit, as long as these tell panels apart: what is left out is an ellipsis.
+std::vector<std::string> titles_of(const std::vector<Scene>& panels, const CoordinateUnits& units) {
+  constexpr std::size_t kLongest = 48;  // bytes: about half a page
+  std::vector<std::string> titles;
+  for (const Length length : {Length::brief, Length::whole}) {
+    const std::vector<KeyWords> keys = words_by_key(panels, units, length);
+    const auto fits = [](const std::vector<std::string>& all) { return std::ranges::all_of(all, [](const std::string& one) { return one.size() <= kLongest; }); };
+    titles = joined_keys(keys, keys.size(), panels.size());
+    if (are_apart(readable(titles))) titles = readable(titles);
+    if (!are_apart(titles)) continue;
+    for (std::size_t count = keys.size(); count > 1 && !fits(titles);) {
+      const std::vector<std::string> fewer = readable(joined_keys(keys, --count, panels.size()));
+      if (!are_apart(fewer)) break;
+      titles = fewer;
+      for (std::string& one : titles) one += ", \u2026";
+    }
+    return titles;
   }
   return titles;
 }
 
 }  // namespace
+
+CoordinateUnits units_of(const Chain& chain) {
+  CoordinateUnits units;
+  for (const DescribedCoordinate& one : coordinates_of(chain)) {
+    units.q.push_back(one.unit);
+    units.by_name[one.name] = one.unit;
+  }
+  units.freedoms.resize(std::size_t(chain.nv), "rad");
+  for (std::size_t i = 1; i < chain.bodies.size(); ++i) {
+    const Joint& joint = chain.bodies[i].joint;
+    if (joint.kind == JointKind::prismatic) units.freedoms[std::size_t(joint.v_index)] = "m";
+    if (joint.kind == JointKind::floating)
+      for (int k = 0; k < 3; ++k) units.freedoms[std::size_t(joint.v_index + k)] = "m";
+  }
+  return units;
+}
 
 bool differ_by_method_alone(const std::vector<Scene>& panels) {
   static const std::set<std::string> of_methods{"method", "step", "tolerance", "order", "accuracy", "expect"};
@@ -152,16 +198,14 @@ bool differ_by_method_alone(const std::vector<Scene>& panels) {
   return true;
 }
 
-void name_panels(std::vector<Scene>& panels) {
+void name_panels(std::vector<Scene>& panels, const CoordinateUnits& units) {
   if (panels.empty()) return;
-  const std::vector<std::string> titles = titles_of(panels);
-  std::set<std::string> short_ones;
-  for (const std::string& title : titles) short_ones.insert(rounded(title));
-  const bool told_apart = short_ones.size() == panels.size();
+  const std::vector<std::string> titles = titles_of(panels, units);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     if (!panels[i].title.empty()) continue;
-    const std::string title = told_apart ? rounded(titles[i]) : titles[i];
-    panels[i].title = title.empty() ? "panel " + std::to_string(i + 1) : title;
+    const bool is_alone = std::ranges::count(titles, titles[i]) == 1;
+    const std::string number = std::to_string(i + 1);
+    panels[i].title = titles[i].empty() ? "panel " + number : is_alone ? titles[i] : titles[i] + " (" + number + ")";
   }
 }
 
