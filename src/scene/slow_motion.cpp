@@ -118,7 +118,7 @@ double longest_film(double motion, bool is_asked) {
 
 bool may_be_hasty(const Scene& scene, const Chain& chain) {
   const auto turns = [](const Body& body) { return body.joint.kind != JointKind::prismatic; };
-  return !scene.events.empty() || !scene.push.empty() || scene.limit == LimitPolicy::stop || std::any_of(chain.bodies.begin() + 1, chain.bodies.end(), turns);
+  return !scene.events.empty() || !scene.push.empty() || !scene.constraints.empty() || scene.limit == LimitPolicy::stop || std::any_of(chain.bodies.begin() + 1, chain.bodies.end(), turns);
 }
 
 std::vector<Haste> fast_turns(const Chain& chain, const Trajectory& run, double turn, FrameRate fps) {
@@ -139,7 +139,7 @@ std::vector<Haste> fast_turns(const Chain& chain, const Trajectory& run, double 
   return all;
 }
 
-std::vector<Haste> notable_instants(const Scene& scene, const Trajectory& run) {
+std::vector<Haste> notable_instants(const Scene& scene, const Trajectory& run, const std::vector<double>& change_points) {
   constexpr double kBriefPush = 0.5;  // s: longer ones are seen as they are
   std::vector<Haste> all;
   if (!is_complete(run.status)) return all;
@@ -149,6 +149,7 @@ std::vector<Haste> notable_instants(const Scene& scene, const Trajectory& run) {
     const double t = run.events.t[std::size_t(k)];
     if (seen.insert(event).second) all.push_back({t, t, false, {scene.events[std::size_t(event)].title()}});
   }
+  if (!change_points.empty()) all.push_back({change_points.front(), change_points.front(), false, {"constraints lose rank"}});
   if (run.status == RunStatus::stopped && run.ending_event < 0 && !run.limits.empty())
     all.push_back({run.end_time, run.end_time, false, {"limit of " + run.limits.back().joint}});
   for (const PushEntry& push : scene.push)

@@ -1,7 +1,7 @@
 // Slow motion that a film has by itself: where a link turns too fast for the eye, and about events.
 //
 // What asks for it: spans of frames, those of the scene's own speed, at which a link turns by more than `turn` until
-// the next frame, and the first instant of each event, or at which a limit ended the run; of all panels, but for runs
+// the next frame, and the first instant of each event, or at which constraints lose rank, or a limit ended the run; of all panels, but for runs
 // that did not come to the end they should have, which decide on nothing.
 //
 // Each is shown slowed down from `around` before it until `around` behind it, half of which the speed takes to change.
@@ -32,7 +32,8 @@ struct Haste {
 
 // What a run has to say; its trajectory is sampled at frames, and maybe at its end.
 std::vector<Haste> fast_turns(const Chain& chain, const Trajectory& run, double turn, FrameRate fps);
-std::vector<Haste> notable_instants(const Scene& scene, const Trajectory& run);
+// `change_points`: s, rising, at which its constraints lose rank.
+std::vector<Haste> notable_instants(const Scene& scene, const Trajectory& run, const std::vector<double>& change_points = {});
 
 // Whether anything of this kind can be found in a run: where nothing turns and nothing happens, none need be looked at.
 bool may_be_hasty(const Scene& scene, const Chain& chain);

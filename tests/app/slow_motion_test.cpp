@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/json.hpp"
+#include "draw/shapes.hpp"
 #include "encode/png.hpp"
 #include "support/picture_compare.hpp"
 #include "support/run_program.hpp"
@@ -367,6 +368,20 @@ TEST_F(SlowMotionFilm, ByItselfIsNotWhereNoWordsCanSaySo) {
   EXPECT_GT(frames(kAuto), 30);
 }
 
+// One instant is told everywhere: the last frame stands there, too.
+TEST(FilmsThatStopAtALimit, EndAtItsInstant) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("stop.yaml", "model: {links: [0.5, 0.4], masses: [1, 1], efforts: 1}\ntorque: [0, '2.3 * t']\nduration: 2\nlimit: stop\nmethod: rk4\nstep: 0.001\nslow_motion: none\n");
+  const PreparedFilm film = load_film(scene, {}, false, true);
+  const Runs runs(film);
+  ASSERT_EQ(runs[0].status, RunStatus::stopped);
+  EXPECT_NEAR(runs[0].end_time, 1 / 2.3, 1e-9) << "s: where 2.3 t is 1";
+  const Fonts fonts;
+  const Film pictures = runs.pictures(runs.frames_shown(int(runs.times().size())), fonts);
+  const std::string words = test::words_of(pictures.frame(pictures.frame_count() - 1));
+  EXPECT_THAT(words, HasSubstr("t = 0.43 s")) << "not 0.45 s, where frame 27 would be";
+}
+
 TEST(OwnSlowMotionOfScenes, IsWhereLinksTurnTooFastAndNowhereElse) {
   const auto checked = [](const std::string& scene, const std::vector<std::string>& options = {}) {
     std::vector<std::string> command{"check", "assets/scenes/" + scene + ".yaml", "--json"};
@@ -390,6 +405,11 @@ TEST(OwnSlowMotionOfScenes, IsWhereLinksTurnTooFastAndNowhereElse) {
   EXPECT_EQ(checked("rrr_free")["slow_motion"], Json::array());
   EXPECT_GT(checked("rrr_free", {"slow_motion={turn: 15deg}"})["slow_motion"].size(), 2u);
   EXPECT_EQ(checked("redundant")["slow_motion"].size(), 1u);
+  // Where constraints lose rank the motion may go on in two ways.
+  const Json singular = checked("four_bar_singular")["slow_motion"];
+  ASSERT_GE(singular.size(), 1u);
+  EXPECT_THAT(singular[0]["because"].get<std::string>(), HasSubstr("'constraints lose rank'"));
+  EXPECT_LT(singular[0]["from"].get<double>(), 0.39) << "s: that of the first such pose";
 }
 
 }  // namespace

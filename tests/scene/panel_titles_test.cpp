@@ -147,6 +147,9 @@ TEST_F(PanelTitles, SayWhatTheyLeaveOut) {
   EXPECT_THAT(own[0], testing::EndsWith(", \u2026"));
   EXPECT_THAT(own[0], HasSubstr("1.62 m/s\u00B2"));
   EXPECT_NE(own[0], own[1]);
+  // Of several keys those that tell panels apart: here no gravity does.
+  EXPECT_THAT(titles("compare: [{start.q: [30deg, 0]}, {start.q: [40deg, 0]}, {gravity: [0, -1.62, 0], start.q: [50deg, 0], torque: [1, 2], start.qd: [1, 2]}]\n"),
+              ElementsAre(HasSubstr("$q_1(0)$ = 30\u00B0, \u2026"), HasSubstr("$q_1(0)$ = 40\u00B0, \u2026"), HasSubstr("$q_1(0)$ = 50\u00B0, \u2026")));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ std::vector<double> shown_times(const std::vector<Trajectory>& runs, const std::
   std::vector<double> shown(times.begin(), times.begin() + frames);
   double end = 0;
   for (const Trajectory& run : runs) {
-    if (run.ending_event < 0) return shown;
+    if (run.status != RunStatus::stopped) return shown;
     end = std::max(end, run.end_time);
   }
   for (double& time : shown) time = std::min(time, end);
@@ -73,14 +73,26 @@ bool may_slow_down(const PreparedFilm& film) {
   });
 }
 
+// Instants at which constraints lose rank, s, of each panel. Of a recorded motion nothing is stepped anew.
+std::vector<std::vector<double>> change_points_of(const PreparedFilm& film, const std::vector<Trajectory>& runs) {
+  std::vector<std::vector<double>> all(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (film.panels[i].simulation.motion || !is_complete(runs[i].status)) continue;
+    for (const RankLoss& loss : rank_losses_of(film.panels[i].simulation, runs[i])) all[i].push_back(loss.t);
+    throw_if_interrupted();
+  }
+  return all;
+}
+
 // By the runs of all panels at the frames of their own speed.
 std::vector<Stretch> own_stretches(const PreparedFilm& film, const std::vector<Trajectory>& runs) {
   const SlowMotionRule& rule = *film.scene.slow_motion_rule;
   std::vector<Haste> events, turns;
+  const std::vector<std::vector<double>> change_points = change_points_of(film, runs);
   double end = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PreparedScene& panel = film.panels[i];
-    std::ranges::move(notable_instants(panel.scene, runs[i]), std::back_inserter(events));
+    std::ranges::move(notable_instants(panel.scene, runs[i], change_points[i]), std::back_inserter(events));
     std::ranges::move(fast_turns(panel.simulation.chain, runs[i], rule.turn, film.scene.video.fps), std::back_inserter(turns));
     if (is_complete(runs[i].status)) end = std::max(end, runs[i].end_time);
   }
@@ -189,13 +201,7 @@ void Runs::run_references() const {
 
 void Runs::find_change_points() const {
   if (!change_points_.empty()) return;
-  for (std::size_t i = 0; i < list_.size(); ++i) {
-    change_points_.emplace_back();
-    // Of a recorded motion nothing is stepped anew.
-    if (film_.panels[i].simulation.motion || !is_complete(list_[i].status)) continue;
-    for (const RankLoss& loss : rank_losses_of(film_.panels[i].simulation, list_[i])) change_points_.back().push_back(loss.t);
-    throw_if_interrupted();
-  }
+  change_points_ = change_points_of(film_, list_);
 }
 
 std::vector<PanelRun> Runs::panels() const {

@@ -9,17 +9,22 @@
 namespace chainreel {
 namespace {
 
-constexpr double kMostOfTime = 0.95;
-constexpr double kRestOfWhole = 0.2;    // five times as high the rest can be read
+// Of a curve: the share of its time that the rest takes at least; how high that is of the whole at most; how many needles it has at most.
+struct NeedleRule {
+  double time, rest;
+  std::size_t few;
+};
+// Five times as high the rest can be read, and more than six needles are how a curve is. Of a short clip a single one may take a quarter of the
+// time, where all else is a line beside it.
+constexpr NeedleRule kNeedleRules[] = {{0.95, 0.2, 6}, {0.9, 0.06, 1}, {0.85, 0.06, 1}, {0.8, 0.06, 1}, {0.75, 0.06, 1}};
 constexpr double kLeastRest = 1e-3;     // of the whole: less is a constant, and its peaks are all that happens
 constexpr double kHeldBeyond = 1;       // of the rest's range: a peak that is as high as twice that is part of it
-constexpr std::size_t kFewNeedles = 6;  // of a curve: more are how it is
 constexpr double kHeadLong = 0.018, kHeadWide = 0.016;  // units of H
 constexpr double kBesideNeedle = 0.006, kAboveEdge = 0.007, kAirOfNumber = 0.003;
 constexpr double kSamePlace = 0.004;    // units of H: heads nearer than that are one
 
 // The least interval that holds a curve for so much of its time; a point stands for half of the way to its neighbours.
-ValueRange most_of(const std::vector<Point>& points) {
+ValueRange most_of(const std::vector<Point>& points, double share) {
   struct Part {
     double y, time;
   };
@@ -35,8 +40,8 @@ ValueRange most_of(const std::vector<Point>& points) {
   ValueRange best{parts.front().y, parts.back().y};
   double held = 0;
   for (std::size_t from = 0, to = 0; from < parts.size(); held -= parts[from++].time) {
-    while (to < parts.size() && held < kMostOfTime * all) held += parts[to++].time;
-    if (held < kMostOfTime * all) break;
+    while (to < parts.size() && held < share * all) held += parts[to++].time;
+    if (held < share * all) break;
     if (parts[to - 1].y - parts[from].y < best.span()) best = {parts[from].y, parts[to - 1].y};
   }
   return best;
@@ -70,17 +75,14 @@ bool returns(const Excursion& one, const std::vector<Point>& points) {
   return one.begin > 0 && one.end < points.size() && std::isfinite(points[one.begin - 1].y) && std::isfinite(points[one.end].y);
 }
 
-}  // namespace
-
-std::optional<ValueRange> range_without_needles(const StripData& data, ValueRange whole) {
-  if (data.angles || !std::ranges::all_of(data.curves, [](const StripCurve& curve) { return !curve.decides || decides_whole(curve); })) return std::nullopt;
+std::optional<ValueRange> range_by(const NeedleRule& rule, const StripData& data, ValueRange whole) {
   ValueRange most{HUGE_VAL, -HUGE_VAL};
   for (const StripCurve& curve : data.curves) {
     if (!curve.decides) continue;
-    const ValueRange own = most_of(curve.points);
+    const ValueRange own = most_of(curve.points, rule.time);
     most = {std::min(most.low, own.low), std::max(most.high, own.high)};
   }
-  if (!(most.span() >= kLeastRest * whole.span()) || !(most.span() < kRestOfWhole * whole.span())) return std::nullopt;
+  if (!(most.span() >= kLeastRest * whole.span()) || !(most.span() < rule.rest * whole.span())) return std::nullopt;
   ValueRange held = most;
   for (const StripCurve& curve : data.curves) {
     if (!curve.decides) continue;
@@ -90,9 +92,18 @@ std::optional<ValueRange> range_without_needles(const StripData& data, ValueRang
       if (returns(one, curve.points) && beyond > kHeldBeyond * most.span()) ++needles;
       else held = {std::min(held.low, y), std::max(held.high, y)};
     }
-    if (needles > kFewNeedles) return std::nullopt;
+    if (needles > rule.few) return std::nullopt;
   }
-  return held.span() < kRestOfWhole * whole.span() ? std::optional(held) : std::nullopt;
+  return held.span() < rule.rest * whole.span() ? std::optional(held) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ValueRange> range_without_needles(const StripData& data, ValueRange whole) {
+  if (data.angles || !std::ranges::all_of(data.curves, [](const StripCurve& curve) { return !curve.decides || decides_whole(curve); })) return std::nullopt;
+  for (const NeedleRule& rule : kNeedleRules)
+    if (const std::optional<ValueRange> held = range_by(rule, data, whole)) return held;
+  return std::nullopt;
 }
 
 std::vector<Needle> needles_of(const std::vector<StripCurve>& curves, const Axis& y) {

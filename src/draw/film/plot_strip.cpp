@@ -15,7 +15,8 @@ namespace chainreel {
 namespace {
 
 constexpr double kTotalLine = 0.0045;
-constexpr double kBoundLine = 0.0025;
+constexpr double kBoundLine = 0.0025, kThinLine = 0.0015;
+constexpr const char* kRankLoss = "rank loss";
 constexpr double kPale = 0.45;   // of a curve that is still to come
 constexpr double kShareBelow = 0.30;  // of the page's height
 constexpr double kMostLabels = 0.4;  // of a plot's width may be taken by the names of its curves
@@ -258,8 +259,6 @@ PlotStrip::PlotStrip(StripData data, const Rect& area, const PlotStyle& style)
 void PlotStrip::draw_static(Picture& picture) const {
   if (data_.accurate_until < frame_.x.high) draw_zone(picture, frame_, {data_.accurate_until, frame_.y.low}, {frame_.x.high, frame_.y.high}, style_.theme->grid);
   draw_axes(picture, frame_, style_);
-  for (const double t : data_.change_points)
-    draw_guide(picture, frame_, {t, frame_.y.low}, {t, frame_.y.high}, {style_.theme->muted, style_.theme->lines * kBoundLine, Dash::dashed, Marker::none});
   draw_needle_heads(picture, frame_, needles_, data_.curves, HUGE_VAL, kPale);
   const std::string unit = unit_in(data_.title);
   std::string note = data_.note;
@@ -267,6 +266,7 @@ void PlotStrip::draw_static(Picture& picture) const {
   if (!draw_needle_numbers(picture, frame_, needles_, data_.curves, unit, style_))
     note += (note.empty() ? "to " : ", to ") + number_of(std::ranges::max(needles_, {}, [](const Needle& one) { return std::abs(one.peak.y); }), unit);
   draw_note(picture, note);
+  draw_change_points(picture, note);
   std::vector<EndLabel> ends;
   for (const StripCurve& curve : data_.curves) {
     draw_part(picture, frame_, curve, HUGE_VAL, *style_.theme, kPale);
@@ -278,6 +278,23 @@ void PlotStrip::draw_static(Picture& picture) const {
     ends.push_back({{goes_on ? end.x : frame_.box.x1, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
   }
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
+}
+
+// Thin and dotted, which no curve is, and named where there is room above them beside the title and the note.
+void PlotStrip::draw_change_points(Picture& picture, const std::string& note) const {
+  const auto words = [&](const std::string& text, double size, bool is_note) {
+    return lay_out_words(*style_.fonts, text, {Face::label, style_.text(size), is_note ? style_.theme->muted : style_.theme->ink, Align::left});
+  };
+  const TextLine name = words(kRankLoss, size::kTick, true);
+  double taken = area_.x0 + words(data_.title, size::kAxis, false).advance + kNoteGap;
+  const double right = frame_.box.x1 - (note.empty() ? 0 : words(note, size::kTick, true).advance + kNoteGap);
+  for (const double t : data_.change_points) {
+    draw_guide(picture, frame_, {t, frame_.y.low}, {t, frame_.y.high}, {style_.theme->muted, style_.theme->lines * kThinLine, Dash::dotted, Marker::none});
+    const double left = frame_.at({t, frame_.y.high}).x - name.advance / 2;
+    if (left < taken || left + name.advance > right) continue;
+    draw_text(picture, name, {left, frame_.box.y1 + title_above_frame(style_)});
+    taken = left + name.advance + kNoteGap;
+  }
 }
 
 // Beside the title of the vertical axis, or not at all.

@@ -34,7 +34,7 @@ struct StripData {
   std::string constancy{};  // "constant to 0.002 J", behind the title where that has room; "": it changes
   double end = 0;        // of the clip, s
   double accurate_until = HUGE_VAL;  // s: what is plotted behind it nobody promises
-  std::vector<double> change_points{};  // s: of constraints that lose rank, each a dashed line across the frame
+  std::vector<double> change_points{};  // s: of constraints that lose rank, each a thin dotted line across the frame
   std::string note{};                // above the frame, at its right end, where it has room
   std::string short_note{};          // ... where that has none
 };
@@ -59,6 +59,7 @@ class PlotStrip {
 
  private:
   void draw_note(Picture& picture, const std::string& words) const;
+  void draw_change_points(Picture& picture, const std::string& note) const;
 
   StripData data_;
   Rect area_;

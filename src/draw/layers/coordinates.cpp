@@ -5,6 +5,7 @@
 #include <compare>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "draw/layers/devices.hpp"
 #include "draw/layers/layer.hpp"
@@ -24,6 +25,12 @@ constexpr double kAnglePiece = 0.08;    // rad
 constexpr double kSmallestAngle = 0.06; // rad: with less the symbol stands alone
 constexpr double kBesideCarriage = 0.058;  // units of H, of a slider's length
 
+constexpr double kBesideBody = 1.25;    // of the body's half thickness
+constexpr double kMostGrown = 2.2;      // thicker bodies have it on them
+constexpr double kOnePlace = 0.02;      // of the reach: joints that near have one place
+constexpr double kApartInWrist = 0.25;  // of a radius
+constexpr double kCasingOfMarks = 0.0016;  // units of H, beside a line over bodies
+
 constexpr double kNearLimit = 20 * std::numbers::pi / 180;  // rad: a run that comes as near has the limit in all its pictures
 constexpr double kNearOfRange = 0.25;   // ... and no more of the range
 constexpr double kNearEnd = 0.10;       // of a slider's range, the same
@@ -32,12 +39,14 @@ constexpr double kWayToLimit = 2;       // times as near: from there on an arc l
 constexpr double kLimitArc = 25 * std::numbers::pi / 180;  // of the arc beyond the limit
 constexpr double kLimitFrom = 0.032, kLimitRadius = 0.062, kLimitLine = 0.0045, kLimitWay = 0.0022;
 
-// The joints that have a coordinate of their own, not shared by mimicry.
+// The joints that have a coordinate of their own, not shared by mimicry: of those that go the same way the first.
 template <class Do>
 void for_each_joint(const Chain& chain, JointKind kind, Do&& act) {
   for (int b = 1; b < int(chain.bodies.size()); ++b) {
     const Joint& joint = chain.bodies[std::size_t(b)].joint;
-    if (joint.kind == kind && joint.ratio == 1 && joint.offset == 0) act(b, joint);
+    const auto before = std::span(chain.bodies).subspan(1, std::size_t(b - 1));
+    const bool follows = std::ranges::any_of(before, [&](const Body& one) { return one.joint.ratio == 1 && one.joint.offset == 0 && one.joint.q_index == joint.q_index; });
+    if (joint.kind == kind && joint.ratio == 1 && joint.offset == 0 && !follows) act(b, joint);
   }
 }
 
@@ -50,13 +59,46 @@ PageTurn turn_about(const Panel& panel, const Workspace& ws, int body) {
           {seen.right.dot(zero.quarter), seen.up.dot(zero.quarter)}};
 }
 
+// How many times as large as on bars a mark about a joint must be to lie beside the body that it moves, whose shape is as thick as that across
+// its link and the axis.
+double grown_beside_body(const Panel& panel, const Workspace& ws, int body, double q, double radius) {
+  const BodyShapes* shapes = panel.motion().shapes();
+  if (!shapes) return 1;
+  const Vector3d place = pose_of(ws, body).translation();
+  const JointZero zero = joint_zero(panel.chain(), panel.motion().skeleton(), ws, body);
+  const Vector3d across = std::cos(q) * zero.quarter - std::sin(q) * zero.along;
+  double thick = 0;
+  for (const BodyShape& shape : shapes->shapes) {
+    if (shape.body != body) continue;
+    for (const Vector3d& corner : shape.corners) {
+      const Vector3d from = pose_of(ws, body) * corner - place;
+      thick = std::max(thick, std::abs(from.dot(across)));
+    }
+  }
+  const Camera seen = panel.camera().seen_at(place);
+  const double scale = norm(panel.camera().project_vector(seen.right, place));
+  return std::clamp(kBesideBody * thick * scale / radius, 1.0, kMostGrown);
+}
+
+// Over bodies set off from them by a wider line.
 void draw_arc(Picture& picture, const PageTurn& turn, double radius, double from, double to, double width, Color color,
-              int clip) {
+              int clip, Color casing) {
   const int pieces = std::max(2, int(std::ceil(std::abs(to - from) / kAnglePiece)));
   Trail path;
   path.color = color;
   for (int i = 0; i <= pieces; ++i) path.points.push_back({turn.at(radius, from + (to - from) * i / pieces), width, 1});
+  if (casing.a > 0) {
+    Trail below = path;
+    below.color = casing;
+    for (TrailPoint& point : below.points) point.width += 2 * kCasingOfMarks;
+    picture.add(std::move(below), clip);
+  }
   picture.add(std::move(path), clip);
+}
+
+void draw_cased_line(Picture& picture, const PageLine& line, double width, Color color, int clip, Color casing) {
+  if (casing.a > 0) draw_line(picture, line, width + 2 * kCasingOfMarks, casing, clip);
+  draw_line(picture, line, width, color, clip);
 }
 
 double coordinate(const Shot& shot, const Joint& joint) {
@@ -104,17 +146,36 @@ class Angles : public Layer {
     const double whole = 2 * std::numbers::pi, q = coordinate(shot, joint);
     if (!is_drawable(turn.center) || !std::isfinite(q)) return;
     const double angle = q - whole * std::trunc(q / whole), sign = angle < 0 ? -1 : 1;
-    const double marks = shot.panel.marks(), radius = marks * kAngleRadius;
+    const double marks = shot.panel.marks(), grown_to = apart_of(shot, body) * grown_beside_body(shot.panel, shot.ws, body, q, marks * kAngleRadius), radius = grown_to * marks * kAngleRadius;
     const int clip = shot.panel.clip();
-    draw_dashed_line(picture, {turn.center, turn.at(marks * kZeroReach, 0)}, kAngleLine, color(), clip);
+    const Color casing = casing_over(shot.panel);
+    const PageLine zero{turn.center, turn.at(grown_to * marks * kZeroReach, 0)};
+    if (casing.a > 0) draw_line(picture, zero, kAngleLine + 2 * kCasingOfMarks, casing, clip);
+    draw_dashed_line(picture, zero, kAngleLine, color(), clip);
     const double head = std::min(marks * kAngleHead / radius, std::abs(angle));
-    if (std::abs(angle) > 0) draw_arc(picture, turn, radius, 0, angle - 0.8 * sign * head, kAngleLine, color(), clip);
+    if (std::abs(angle) > 0) draw_arc(picture, turn, radius, 0, angle - 0.8 * sign * head, kAngleLine, color(), clip, casing);
     const Point tip = turn.at(radius, angle), base = turn.at(radius, angle - sign * head);
     const double grown = std::min(1.0, std::abs(angle) * radius / (marks * kAngleHead));
     if (norm(tip - base) > 1e-6) draw_head(picture, tip, unit(tip - base), marks * grown, clip);
     const double middle = std::abs(angle) < kSmallestAngle ? 0 : angle / 2;
     const Point near = turn.at(radius, middle);
     add_label(shot, joint, near, unit(near - turn.center), turn.center);
+  }
+
+  // Of joints whose axes cross, as in a wrist, each has an arc of its own size.
+  static double apart_of(const Shot& shot, int body) {
+    const Chain& chain = shot.panel.chain();
+    const double near = kOnePlace * shot.panel.motion().skeleton().reach;
+    int before = 0;
+    for (int b = 1; b < body; ++b)
+      before += chain.bodies[std::size_t(b)].joint.kind == JointKind::revolute && (pose_of(shot.ws, b).translation() - pose_of(shot.ws, body).translation()).norm() < near &&
+                is_ancestor(chain, b, body);
+    return 1 + kApartInWrist * before;
+  }
+
+  static bool is_ancestor(const Chain& chain, int of, int body) {
+    while (body > of) body = chain.bodies[std::size_t(body)].parent;
+    return body == of;
   }
 
   // Beside the rail, from the carriage's zero on.
@@ -148,7 +209,7 @@ class Limits : public Layer {
  public:
   explicit Limits(const Stage& stage) : theme_(&stage.theme) {
     for (const StagedRun& motion : stage.motions) {
-      if (!is_of(motion) || motion.shapes()) continue;
+      if (!is_of(motion) || !shows_drives(stage, motion)) continue;
       for (const JointKind kind : {JointKind::revolute, JointKind::prismatic})
         for_each_joint(motion.chain(), kind, [&](int body, const Joint& joint) {
           const double near = near_limit(joint);
@@ -165,7 +226,6 @@ class Limits : public Layer {
   UnderWords under_words() const override { return UnderWords::if_need_be; }
 
   void draw(Picture& picture, const Shot& shot) const override {
-    if (shot.panel.motion().shapes()) return;
     for (const JointKind kind : {JointKind::revolute, JointKind::prismatic})
       for_each_joint(shot.panel.chain(), kind, [&](int body, const Joint& joint) {
         const double q = coordinate(shot, joint);
@@ -174,7 +234,7 @@ class Limits : public Layer {
           const double nearness = std::clamp(kWayToLimit - left_to(joint, is_upper, q) / near_limit(joint), 0.0, 1.0);
           const double limit = is_upper ? joint.limit.upper : joint.limit.lower, sign = is_upper ? 1 : -1;
           if (kind == JointKind::revolute && sign * (limit - q) > 0) draw_way(picture, shot, body, q, limit, nearness);
-          draw_limit(picture, shot, body, kind, limit, sign, kFarLimit + nearness * (1 - kFarLimit));
+          draw_limit(picture, shot, body, kind, q, limit, sign, kFarLimit + nearness * (1 - kFarLimit));
         }
       });
   }
@@ -193,14 +253,16 @@ class Limits : public Layer {
   void draw_way(Picture& picture, const Shot& shot, int body, double q, double limit, double shown) const {
     const PageTurn turn = turn_about(shot.panel, shot.ws, body);
     if (!(shown > 0) || !is_drawable(turn.center)) return;
-    draw_arc(picture, turn, shot.panel.marks() * kLimitRadius, q, limit, kLimitWay, theme_->base.faded(shown), shot.panel.clip());
+    const double radius = shot.panel.marks() * kLimitRadius;
+    draw_arc(picture, turn, radius * grown_beside_body(shot.panel, shot.ws, body, q, radius), q, limit, kLimitWay, theme_->base.faded(shown), shot.panel.clip(),
+             casing_over(shot.panel).faded(shown));
   }
 
-  void draw_limit(Picture& picture, const Shot& shot, int body, JointKind kind, double limit, double sign,
+  void draw_limit(Picture& picture, const Shot& shot, int body, JointKind kind, double q, double limit, double sign,
                   double shown) const {
     const Panel& panel = shot.panel;
     const double marks = panel.marks();
-    const Color color = theme_->base.faded(shown);
+    const Color color = theme_->base.faded(shown), casing = casing_over(panel).faded(shown);
     if (kind == JointKind::prismatic) {
       const Point at = panel.camera().project(rail_point(panel.chain(), shot.ws, body, limit));
       const Point way = panel.camera().project_vector(
@@ -209,17 +271,17 @@ class Limits : public Layer {
       if (!is_drawable(at) || !(norm(way) > 0)) return;
       const Point stop = at + (sign * panel.look().rails * size::kCarriageLength / 2) * unit(way);
       const Point half = (panel.look().rails * size::kRailGap) * normal_to(unit(way));
-      draw_line(picture, {stop - half, stop + half}, 1.5 * kLimitLine, color, panel.clip());
+      draw_cased_line(picture, {stop - half, stop + half}, 1.5 * kLimitLine, color, panel.clip(), casing);
       return;
     }
     const PageTurn turn = turn_about(panel, shot.ws, body);
     if (!is_drawable(turn.center)) return;
-    draw_line(picture, {turn.at(marks * kLimitFrom, limit), turn.at(marks * (kLimitRadius + kLimitFrom / 2), limit)},
-              kLimitLine, color, panel.clip());
-    draw_arc(picture, turn, marks * kLimitRadius, limit, limit + sign * kLimitArc, kLimitLine, color, panel.clip());
+    const double radius = marks * kLimitRadius * grown_beside_body(panel, shot.ws, body, q, marks * kLimitRadius), end = radius + marks * kLimitFrom / 2;
+    draw_cased_line(picture, {turn.at(marks * kLimitFrom, limit), turn.at(end, limit)}, kLimitLine, color, panel.clip(), casing);
+    draw_arc(picture, turn, radius, limit, limit + sign * kLimitArc, kLimitLine, color, panel.clip(), casing);
     for (int i = 1; i <= 4; ++i) {
       const double angle = limit + sign * kLimitArc * i / 4.5;
-      draw_line(picture, {turn.at(marks * kLimitRadius, angle), turn.at(marks * (kLimitRadius + kLimitFrom / 2), angle + sign * 0.12)},
+      draw_line(picture, {turn.at(radius, angle), turn.at(end, angle + sign * 0.12)},
                 size::kGroundHatch, color, panel.clip());
     }
   }

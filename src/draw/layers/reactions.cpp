@@ -80,7 +80,28 @@ ReactionRun::ReactionRun(const StagedRun& motion) : motion_(&motion), each_(reac
   }
   if (at_.empty()) return;
   for (const Reaction& one : each_.front()) places_.at(one.frame).of_single_rows &= one.rows.size() == 1;
+  for (int k = 0; k < std::min(motion.samples(), int(each_.size())); ++k)
+    for (auto& [frame, place] : places_)
+      if (place.of_single_rows && place.is_line) look_at_directions(frame, k, kSameSize * largest, place);
   for (const Reaction& one : at_.front()) find_extremes(one);
+}
+
+// Whether the shares lie along one line at this sample, with what their multipliers are as sizes; which of them press against the first one.
+void ReactionRun::look_at_directions(int frame, int k, double close, Place& place) const {
+  const auto lambda = motion_->trajectory().lambda_at(k);
+  std::vector<const Reaction*> shares;
+  for (const Reaction& share : each_[std::size_t(k)])
+    if (share.frame == frame && std::abs(lambda[std::size_t(share.rows.front())]) > close) shares.push_back(&share);
+  if (shares.empty()) return;
+  const auto size = [&](const Reaction* share) { return std::abs(lambda[std::size_t(share->rows.front())]); };
+  const auto way = [&](const Reaction* share) { return Vector3d(share->force / lambda[std::size_t(share->rows.front())]); };
+  const Vector3d along = way(*std::ranges::max_element(shares, {}, size));
+  for (const Reaction* share : shares) {
+    const double sizes = size(share);
+    place.is_line &= std::abs(share->force.norm() - sizes) <= kSameSize * sizes + close && share->force.cross(along).norm() <= kSameSize * sizes + close;
+    if (place.first_row < 0) place.first_row = share->rows.front();
+    if (shares.front()->rows.front() == place.first_row && way(share).dot(way(shares.front())) < 0) place.turned.insert(share->rows.front());
+  }
 }
 
 std::vector<double> ReactionRun::extremes_of(const std::vector<int>& rows, bool as_length) const {
@@ -98,8 +119,8 @@ std::vector<double> ReactionRun::extremes_of(const std::vector<int>& rows, bool 
 
 void ReactionRun::find_extremes(const Reaction& one) {
   Place& place = places_.at(one.frame);
-  if (one.rows.empty() || !(place.is_sum || place.is_vector)) return;
-  place.extremes = extremes_of(one.rows, one.rows.size() > 1 && place.is_vector);
+  if (one.rows.empty()) return;
+  if (place.is_sum || place.is_vector) place.extremes = extremes_of(one.rows, one.rows.size() > 1 && place.is_vector);
   if (!place.has_shares(one)) return;
   for (const int row : one.rows) place.share_extremes[row] = extremes_of({row}, false);
 }
@@ -134,7 +155,7 @@ void ReactionRun::add_shares(const Reaction& one, const Workspace& ws, int k, st
     const std::string name = multipliers({row}, run.rows, "");
     WorldVector vector{VectorKind::constraint, frame_position(motion_->chain(), ws, one.frame), share.force, Vector3d::Zero(), Vector3d::Zero(), "-" + name};
     // The left of an arrow changes sides where it turns round.
-    vector.lane = lambda > 0 ? -lane : lane;
+    vector.lane = (lambda > 0) != place.turned.contains(row) ? -lane : lane;
     vector.amount = Amount{name, lambda};
     vector.extreme = place.share_extremes.at(row)[std::size_t(k)];
     vectors.push_back(std::move(vector));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <vector>
 
 #include "draw/layers/vectors.hpp"
@@ -29,10 +30,14 @@ class ReactionRun {
     bool of_single_rows = true;  // each of the constraints that hold it has one
     std::vector<double> extremes{};  // at each sample, of their sum or of the vector's length
     std::map<int, std::vector<double>> share_extremes{};  // of each row
+    bool is_line = true;      // all along one line, one way or the other: with single rows
+    int first_row = -1;       // that ever bears anything
+    std::set<int> turned{};   // rows whose multipliers press the other way than its one
 
-    bool has_shares(const Reaction& one) const { return one.rows.size() > 1 && is_sum && of_single_rows; }
+    bool has_shares(const Reaction& one) const { return one.rows.size() > 1 && of_single_rows && is_line; }
   };
   std::vector<double> extremes_of(const std::vector<int>& rows, bool as_length) const;
+  void look_at_directions(int frame, int k, double close, Place& place) const;
   void find_extremes(const Reaction& one);
   WorldVector vector_of(const Reaction& one, const Workspace& ws, int k) const;
   void add_shares(const Reaction& one, const Workspace& ws, int k, std::vector<WorldVector>& vectors) const;

@@ -1,5 +1,5 @@
 // The layers `springs`: torques that are linear in a coordinate or in its rate, as the things that would make them. A slider
-// has a coil, a dashpot or both between an end of its rail and its carriage, and a mark where the coil is at rest; a
+// has a coil, a dashpot or both between an end of its rail and its carriage, and a mark where the coil is at rest, over bodies along its axis; a
 // revolute joint a spiral that winds up, a ring with vanes, or both.
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,6 @@ std::vector<Device> devices_of(const Stage& stage, const StagedRun& motion) {
   for (const LinearDrive& drive : linear_drives(*motion.simulation())) {
     if (drive.follows) continue;
     Device device{drive, body_of_freedom(chain, drive.freedom)};
-    if (motion.shapes() && chain.bodies[std::size_t(device.body)].joint.kind == JointKind::prismatic) continue;
     const Vector3d axis = pose_of(motion.pose_at(0), device.body).linear() * chain.bodies[std::size_t(device.body)].joint.axis;
     // Below, else on the left.
     const double up = camera.up.dot(axis), right = camera.right.dot(axis);
@@ -64,15 +63,18 @@ constexpr double kAnchorAway = 0.050;  // of a slider's anchor beyond the end of
 constexpr double kAnchorWidth = 0.060;
 constexpr double kSmallest = 0.8;      // of the size of coils and dashpots on full rails: on thin ones they would be a hair
 constexpr double kRestBeyond = 0.022;  // of the mark of rest, on both sides of the rail
+constexpr double kSeenEndOn = 0.08;    // units of H: a rail over bodies that is no longer on the page, whose coil would be a ring
 constexpr double kNameGap = 0.012, kNameFromAnchor = 0.09;  // units of H: of a spring's words, from the rail and along it
 constexpr double kOnBodies = 1.25;      // a spiral about the axis of a body, of that about the disc of a bar
 constexpr double kSideBySide = 0.23;   // of the rail's width: of a coil and a dashpot from its middle line
 
 using Devices = std::map<const StagedRun*, std::vector<Device>>;
 
-Devices all_devices(const Stage& stage, JointKind kind) {
+enum class Over { bars, bodies, both };
+Devices all_devices(const Stage& stage, JointKind kind, Over over = Over::both) {
   Devices all;
   for (const StagedRun& motion : stage.motions) {
+    if (over != Over::both && (over == Over::bodies) != (motion.shapes() != nullptr)) continue;
     std::vector<Device> own = devices_of(stage, motion);
     std::erase_if(own, [&](const Device& device) {
       return motion.chain().bodies[std::size_t(device.body)].joint.kind != kind;
@@ -88,11 +90,11 @@ const Rail* rail_of(const Skeleton& skeleton, int body) {
   return rail == skeleton.rails.end() ? nullptr : &*rail;
 }
 
-// Between rails and carriages.
+// Between rails and carriages, or over bodies.
 class SliderSprings : public Layer {
  public:
-  explicit SliderSprings(const Stage& stage)
-      : stage_(&stage), devices_(all_devices(stage, JointKind::prismatic)), is_named_(!stage.is_comparison() && !is_transparent(stage.page)) {}
+  SliderSprings(const Stage& stage, Over over)
+      : stage_(&stage), devices_(all_devices(stage, JointKind::prismatic, over)), is_named_(!stage.is_comparison() && !is_transparent(stage.page)) {}
 
   bool has_words() const override { return is_named_ && !devices_.empty(); }
 
@@ -123,15 +125,18 @@ class SliderSprings : public Layer {
     const ChainLook& look = panel.look();
     const Rail* rail = rail_of(drawing.skeleton, device.body);
     if (!rail) return;
+    const bool is_over_body = drawing.shapes != nullptr;
+    const double rails = is_over_body ? panel.marks() : look.rails;
     const PageLine line = rail_line(drawing, shot.ws, *rail);
     const Point carriage = panel.camera().project(pose_of(shot.ws, device.body).translation());
     if (!is_drawable(line.a) || !is_drawable(line.b) || !is_drawable(carriage)) return;
+    if (is_over_body && norm(line.b - line.a) < kSeenEndOn * panel.marks()) return;
     const Point away = device.from_upper ? unit(line.b - line.a) : unit(line.a - line.b), side = normal_to(away);
-    const Point anchor = within((device.from_upper ? line.b : line.a) + (look.rails * kAnchorAway) * away, carriage,
-                                panel.area(), look.rails * kAnchorAway / 2);
-    const Point end = carriage + (look.rails * carriage_length(rail->carrier) / 2) * away;
+    const Point anchor = within((device.from_upper ? line.b : line.a) + (rails * kAnchorAway) * away, carriage,
+                                panel.area(), rails * kAnchorAway / 2);
+    const Point end = carriage + (is_over_body ? 0 : rails * carriage_length(rail->carrier) / 2) * away;
     const Color color = toned(look.theme->torque, look);
-    const Point half = (look.rails * kAnchorWidth / 2) * side;
+    const Point half = (rails * kAnchorWidth / 2) * side;
     // Hatching stands for the world: what moves with a link has a plate alone.
     const PageLine plate{anchor - half, anchor + half};
     if (drawing.chain.bodies[std::size_t(device.body)].parent == 0)
@@ -139,13 +144,13 @@ class SliderSprings : public Layer {
     else
       draw_line(picture, plate, size::kGroundLine, toned(look.theme->base, look), panel.clip());
     const bool both = device.drive.is_spring() && device.drive.damping > 0;
-    const double width = std::max(look.rails, kSmallest * panel.marks());
+    const double width = std::max(rails, kSmallest * panel.marks());
     const Point apart = ((both ? kSideBySide : 0) * width * size::kRailGap) * side;
     if (device.drive.is_spring()) {
-      draw_rest(picture, drawing, shot.ws, device, side, panel.clip());
-      draw_coil(picture, anchor + apart, end + apart, width * (both ? 0.6 : 1), color, panel.clip());
+      draw_rest(picture, drawing, shot.ws, device, side, rails, panel.clip());
+      draw_coil(picture, anchor + apart, end + apart, width * (both ? 0.6 : 1), color, panel.clip(), casing_over(panel));
       if (is_named_) {
-        const double beside = look.rails * (size::kRailGap / 2 + kRestBeyond);
+        const double beside = rails * (size::kRailGap / 2 + kRestBeyond);
         const std::string number = std::to_string(device.drive.freedom);
         add_word(shot, "rest " + number, "rest", panel.camera().project(rail_point(drawing.chain, shot.ws, device.body, device.drive.rest)), side, beside);
         add_word(shot, "stiffness " + number, "$k$ = " + format_significant(device.drive.stiffness, 3) + " N/m", anchor - kNameFromAnchor * away, side, beside);
@@ -175,11 +180,11 @@ class SliderSprings : public Layer {
 
   // Dashes across the rail.
   static void draw_rest(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Device& device,
-                        Point side, int clip) {
+                        Point side, double rails, int clip) {
     const ChainLook& look = drawing.look;
     const Point rest = drawing.camera.project(rail_point(drawing.chain, ws, device.body, device.drive.rest));
     if (!is_drawable(rest)) return;
-    const double reach = look.rails * (size::kRailGap / 2 + kRestBeyond), dash = reach / 3.5;
+    const double reach = rails * (size::kRailGap / 2 + kRestBeyond), dash = reach / 3.5;
     for (double at = -reach; at < reach - 0.5 * dash; at += 2 * dash)
       draw_line(picture, {rest + at * side, rest + (at + dash) * side}, size::kRailLine, toned(look.theme->torque, look), clip);
   }
@@ -192,7 +197,9 @@ class SliderSprings : public Layer {
 // Over links and joints.
 class JointSprings : public Layer {
  public:
-  explicit JointSprings(const Stage& stage) : devices_(all_devices(stage, JointKind::revolute)), color_(stage.theme.torque) {}
+  explicit JointSprings(const Stage& stage) : devices_(all_devices(stage, JointKind::revolute)), color_(stage.theme.torque), sliders_(stage, Over::bodies) {}
+
+  bool has_words() const override { return sliders_.has_words(); }
 
   // A ring with vanes is not known to everybody as a damper: what it is stands in the foot, and how strong, where all are alike.
   void write(SheetText& text) const override {
@@ -207,6 +214,7 @@ class JointSprings : public Layer {
   }
 
   void measure(const Sight& sight, FitBox& box) const override {
+    sliders_.measure(sight, box);
     const auto own = devices_.find(&sight.motion);
     if (own == devices_.end()) return;
     for (const Device& device : own->second)
@@ -215,6 +223,7 @@ class JointSprings : public Layer {
 
   void draw(Picture& picture, const Shot& shot) const override {
     const Panel& panel = shot.panel;
+    sliders_.draw(picture, shot);
     const auto own = devices_.find(&panel.motion());
     if (own == devices_.end()) return;
     const ChainLook& look = panel.look();
@@ -240,12 +249,13 @@ class JointSprings : public Layer {
  private:
   Devices devices_;
   Color color_;
+  SliderSprings sliders_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Layer> make_layer_slider_springs(const Stage& stage) {
-  return std::make_unique<SliderSprings>(stage);
+  return std::make_unique<SliderSprings>(stage, Over::bars);
 }
 
 std::unique_ptr<const Layer> make_layer_joint_springs(const Stage& stage) {

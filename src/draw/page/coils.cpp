@@ -40,7 +40,7 @@ void add_wire(Picture& picture, Trail path, int clip, Color casing) {
 
 }  // namespace
 
-void draw_coil(Picture& picture, Point a, Point b, double size, Color color, int clip) {
+void draw_coil(Picture& picture, Point a, Point b, double size, Color color, int clip, Color casing) {
   const double length = norm(b - a), width = width_of_wire(size);
   const Point along = unit(b - a), side = normal_to(along);
   const double lead = std::min(size * kLead, length / 4), radius = size * kCoilRadius;
@@ -55,7 +55,7 @@ void draw_coil(Picture& picture, Point a, Point b, double size, Color color, int
                            width, 1});
   }
   path.points.push_back({b, width, 1});
-  picture.add(std::move(path), clip);
+  add_wire(picture, std::move(path), clip, casing);
 }
 
 void draw_dashpot(Picture& picture, Point a, Point b, double size, Color color, Color inside, int clip) {

@@ -5,8 +5,9 @@
 
 namespace chainreel {
 
-// A coil from a to b: its windings go apart and together, their number stays.
-void draw_coil(Picture& picture, Point a, Point b, double size, Color color, int clip);
+// A coil from a to b: its windings go apart and together, their number stays. `casing`: of a wider line below it, over bodies; one that is
+// transparent is none.
+void draw_coil(Picture& picture, Point a, Point b, double size, Color color, int clip, Color casing = {});
 // A cylinder that is fixed at a, with a piston whose rod ends at b.
 void draw_dashpot(Picture& picture, Point a, Point b, double size, Color color, Color inside, int clip);
 
@@ -20,7 +21,7 @@ struct PageTurn {
 inline constexpr double kSpiralOuter = 0.046;  // radius, units of H
 
 // A spiral whose inner end turns with the link, at angle q, and whose outer end is fixed: where q = rest it has its own
-// number of windings. `casing`: of a wider line below it, over bodies; one that is transparent is none.
+// number of windings. `casing`: as of a coil.
 void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, double size, Color color, int clip, Color casing = {});
 inline constexpr double kVanesOuter = 0.0285;    // radius, units of H
 inline constexpr double kInsideOfVanes = 0.25;   // of the colour's strength

@@ -131,11 +131,11 @@ std::vector<KeyWords> words_by_key(const std::vector<Scene>& panels, const Coord
   return all;
 }
 
-std::vector<std::string> joined_keys(const std::vector<KeyWords>& keys, std::size_t count, std::size_t panels) {
+std::vector<std::string> joined_keys(const std::vector<KeyWords>& keys, const std::vector<bool>& chosen, std::size_t panels) {
   std::vector<std::string> titles(panels);
   for (std::size_t i = 0; i < panels; ++i)
-    for (std::size_t k = 0; k < count; ++k)
-      if (!keys[k][i].empty()) titles[i] += (titles[i].empty() ? "" : ", ") + keys[k][i];
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (chosen[k] && !keys[k][i].empty()) titles[i] += (titles[i].empty() ? "" : ", ") + keys[k][i];
   return titles;
 }
 
@@ -148,23 +148,40 @@ std::vector<std::string> readable(std::vector<std::string> titles) {
   return titles;
 }
 
-// As many keys as fit, as long as these tell panels apart: what is left out is an ellipsis.
+// As many keys as fit beside the first one that tells all panels apart: what is left out is an ellipsis. All where none does.
+std::vector<std::string> that_fit(const std::vector<KeyWords>& keys, std::size_t panels) {
+  constexpr std::size_t kOfPage = 96;  // bytes on a page's width, at the least size
+  const std::size_t longest = kOfPage / std::max<std::size_t>(2, std::min<std::size_t>(panels, 4));
+  const auto fit = [&](const std::vector<std::string>& all) { return std::ranges::all_of(all, [&](const std::string& one) { return one.size() <= longest; }); };
+  const std::vector<bool> all(keys.size(), true);
+  const std::vector<std::string> whole = readable(joined_keys(keys, all, panels));
+  if (fit(whole)) return whole;
+  std::vector<bool> chosen(keys.size());
+  for (std::size_t k = 0; k < keys.size() && chosen == std::vector<bool>(keys.size()); ++k) {
+    chosen[k] = true;
+    const std::vector<std::string> alone = readable(joined_keys(keys, chosen, panels));
+    chosen[k] = are_apart(alone) && fit(alone) && std::ranges::none_of(alone, &std::string::empty);
+  }
+  if (chosen == std::vector<bool>(keys.size())) return whole;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (chosen[k]) continue;
+    chosen[k] = true;
+    chosen[k] = fit(readable(joined_keys(keys, chosen, panels)));
+  }
+  std::vector<std::string> titles = readable(joined_keys(keys, chosen, panels));
+  for (std::size_t i = 0; i < panels; ++i)
+    if (titles[i] != whole[i]) titles[i] += ", \u2026";
+  return titles;
+}
+
 std::vector<std::string> titles_of(const std::vector<Scene>& panels, const CoordinateUnits& units) {
-  constexpr std::size_t kLongest = 48;  // bytes: about half a page
   std::vector<std::string> titles;
   for (const Length length : {Length::brief, Length::whole}) {
     const std::vector<KeyWords> keys = words_by_key(panels, units, length);
-    const auto fits = [](const std::vector<std::string>& all) { return std::ranges::all_of(all, [](const std::string& one) { return one.size() <= kLongest; }); };
-    titles = joined_keys(keys, keys.size(), panels.size());
-    if (are_apart(readable(titles))) titles = readable(titles);
-    if (!are_apart(titles)) continue;
-    for (std::size_t count = keys.size(); count > 1 && !fits(titles);) {
-      const std::vector<std::string> fewer = readable(joined_keys(keys, --count, panels.size()));
-      if (!are_apart(fewer)) break;
-      titles = fewer;
-      for (std::string& one : titles) one += ", \u2026";
-    }
-    return titles;
+    titles = that_fit(keys, panels.size());
+    if (are_apart(titles)) return titles;
+    titles = joined_keys(keys, std::vector<bool>(keys.size(), true), panels.size());
+    if (are_apart(titles)) return titles;
   }
   return titles;
 }

@@ -398,8 +398,9 @@ TEST(LimitLayer, ShowsALimitThatTheMotionComesNearTo) {
 
 // In space a robot has bodies, behind which its target stands pale, and over which coils lie.
 struct DrivenInSpace {
-  DrivenInSpace(const std::string& torque, const std::string& gravity = "[0, 0, -9.81]") {
-    const std::string text = "model: {dh: [[0, 90deg, 0.6, 0], [0.5, 0, 0, 0], [0.4, 0, 0, 0]]}\nstart: {q: [0, 0.5, -1]}\nduration: 0.5\nmethod: rk4\nstep: 0.001\ngravity: " +
+  DrivenInSpace(const std::string& torque, const std::string& gravity = "[0, 0, -9.81]",
+                const std::string& model = "{dh: [[0, 90deg, 0.6, 0], [0.5, 0, 0, 0], [0.4, 0, 0, 0]]}") {
+    const std::string text = "model: " + model + "\nstart: {q: [0, 0.5, -1]}\nduration: 0.5\nmethod: rk4\nstep: 0.001\ngravity: " +
                              gravity + "\ntorque: " + torque + "\n";
     scene = read_scene(folder.write("space.yaml", text));
     simulation = prepare(scene, false);
@@ -443,6 +444,52 @@ TEST(SpringLayer, WindsSpiralsAboutTheAxesOfBodiesInSpace) {
   EXPECT_EQ(wires(sprung.film().frame(3), light().background).size(), 3u) << "each set off from its body";
   EXPECT_EQ(wires(sprung.film(false).frame(3), light().background).size(), 0u);
   EXPECT_EQ(torque_heads(sprung.film().frame(3)), 0) << "the spiral says how large the torque is";
+}
+
+TEST(SpringLayer, CoilsAlongTheAxisOfASliderInSpace) {
+  const DrivenInSpace sprung("[0, \"-80*(q2-0.1)\", 0]", "[0, 0, -9.81]", "{links: [0.4, 0.3, 0.3], joints: RzPyRx}");
+  const Film film = sprung.film();
+  std::optional<double> before;
+  for (const int k : {0, 12, 24}) {
+    const Picture picture = film.frame(k);
+    const auto coils = test::all_of<Trail>(picture, [](const Trail& path) { return path.color == light().torque && path.points.size() > 100; });
+    ASSERT_EQ(coils.size(), 1u) << k;
+    Workspace ws(sprung.simulation.chain);
+    compute_kinematics(sprung.simulation.chain, ws, sprung.run.q_at(k), sprung.run.qd_at(k));
+    EXPECT_LT(test::distance(coils[0].points.back().p, film.camera().project(pose_of(ws, 2).translation())), kCauseRoundOff) << "it ends at the slider";
+    const double length = test::distance(coils[0].points.front().p, coils[0].points.back().p);
+    if (before) EXPECT_NE(length, *before) << "and is as long as the way to it";
+    before = length;
+    EXPECT_GE(wires(picture, light().background).size(), 1u) << "set off from the bodies";
+    EXPECT_EQ(torque_heads(picture), 0) << "it stands for the arrow";
+  }
+}
+
+// Beside the bodies in space, where marks of bars would lie on them.
+TEST(CoordinateLayers, StandBesideBodiesInSpace) {
+  DrivenInSpace driven("[0, 0, 0]");
+  driven.simulation.chain.bodies[2].joint.limit = {driven.run.q_at(29)[1] - 0.05, 3, 1e9, 1e9};
+  const auto radii = [&](const char* layer, bool with_bodies, Color color) {
+    driven.scene.draw = {"chain", layer};
+    const Film film = driven.film(with_bodies);
+    std::vector<double> all;
+    for (const int joint : {1, 2, 3}) {
+      Workspace ws(driven.simulation.chain);
+      compute_kinematics(driven.simulation.chain, ws, driven.run.q_at(29), driven.run.qd_at(29));
+      const Point center = film.camera().project(pose_of(ws, joint).translation());
+      double farthest = 0;
+      for (const Trail& arc : test::all_of<Trail>(film.frame(29), [&](const Trail& path) { return path.color.faded(0) == color.faded(0) && path.color.a > 0.9 && path.points.size() > 2; }))
+        for (const TrailPoint& point : arc.points)
+          if (test::distance(center, point.p) < 0.3) farthest = std::max(farthest, test::distance(center, point.p));
+      all.push_back(farthest);
+    }
+    return all;
+  };
+  EXPECT_GT(radii("limits", true, light().base)[1], 0) << "a limit is shown on bodies, too";
+  EXPECT_GT(radii("angles", true, light().ink)[1], 0);
+  driven.scene.draw = {"chain", "angles"};
+  EXPECT_GE(wires(driven.film().frame(29), light().background).size(), 3u) << "each set off from its body";
+  EXPECT_EQ(wires(driven.film(false).frame(29), light().background).size(), 0u);
 }
 
 TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {
@@ -527,6 +574,10 @@ TEST(ConstraintForces, AreNamedLikeTheirCurves) {
   ASSERT_EQ(heads.size(), 2u);
   EXPECT_NEAR(test::distance(heads[0], heads[1]), 0.02, 1e-6) << "page units, of the lanes; equal lengths";
   EXPECT_GT(dashes(pen.film().still(40)), 0u);
+  // Of equal lines that run against one another each has its arrow, too.
+  const Cause against("redundant", {"layout=scene", "constraints.2.line.direction=[-1, 0]"}, 1);
+  const std::string apart = test::words_of(against.film().still(0));
+  for (const char* name : {"\u2212\U0001D7061", "\u2212\U0001D7062"}) EXPECT_NE(apart.find(name), std::string::npos) << apart;
 }
 
 // Near singular poses ties have needles: what they exert most of the time has an arrow for all that, and needles have numbers.
