@@ -149,7 +149,7 @@ TEST_F(PanelTitles, SayWhatTheyLeaveOut) {
   EXPECT_NE(own[0], own[1]);
   // Of several keys those that tell panels apart: here no gravity does.
   EXPECT_THAT(titles("compare: [{start.q: [30deg, 0]}, {start.q: [40deg, 0]}, {gravity: [0, -1.62, 0], start.q: [50deg, 0], torque: [1, 2], start.qd: [1, 2]}]\n"),
-              ElementsAre(HasSubstr("$q_1(0)$ = 30\u00B0, \u2026"), HasSubstr("$q_1(0)$ = 40\u00B0, \u2026"), HasSubstr("$q_1(0)$ = 50\u00B0, \u2026")));
+              ElementsAre("$q_1(0)$ = 30\u00B0, no torque, \u2026", "$q_1(0)$ = 40\u00B0, no torque, \u2026", "$q_1(0)$ = 50\u00B0, \u03C4 = (1, 2) N m, \u2026"));
 }
 
 }  // namespace

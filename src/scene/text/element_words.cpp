@@ -30,8 +30,9 @@ const std::array<ListWords, 5>& list_words() {
 
 // A number as it was written, "30deg"; nothing of an expression, or with another unit.
 std::optional<std::string> as_written(const std::string& text) {
-  const std::string number = text.ends_with("deg") ? trimmed(text.substr(0, text.size() - 3)) : text;
-  return parse_number(number) ? std::optional(text) : std::nullopt;
+  for (const std::string_view unit : {"deg/s", "deg", ""})
+    if (text.ends_with(unit)) return parse_number(trimmed(text.substr(0, text.size() - unit.size()))) ? std::optional(text) : std::nullopt;
+  return {};
 }
 
 Values values_of(const SceneEntry& entry, const std::vector<std::string>* written, const std::string& unit, const CoordinateUnits& units) {
