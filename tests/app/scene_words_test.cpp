@@ -71,6 +71,19 @@ bool any_in(const std::vector<Dot>& dots, const Rect& box) {
 
 struct Counts {
   int frames = 0, words = 0, on_words = 0, on_arrows = 0, on_links = 0, jumps = 0, left_out = 0;
+  std::vector<double> off{};  // units of H, of each word that stands from what it names
+
+  double mean_off() const {
+    double sum = 0;
+    for (const double one : off) sum += one;
+    return off.empty() ? 0 : sum / double(off.size());
+  }
+  double off_of(double share) const {
+    if (off.empty()) return 0;
+    std::vector<double> sorted = off;
+    std::ranges::sort(sorted);
+    return sorted[std::min(sorted.size() - 1, std::size_t(share * double(sorted.size())))];
+  }
 };
 
 // By more than 0.02 H on the page, and about what it names, too, which itself is followed by an eye up to 0.1 H a frame.
@@ -90,6 +103,7 @@ void count(Counts& counts, const Drawn& drawn, std::span<const StandingWord> now
       ++counts.left_out;
       continue;
     }
+    if (now[i].anchor) counts.off.push_back(norm(nearest_in(now[i].box, *now[i].anchor) - *now[i].anchor));
     for (std::size_t j = 0; j < i; ++j) counts.on_words += now[j].opacity > 0 && overlap(now[i].box, now[j].box);
     counts.on_arrows += any_in(drawn.arrows, now[i].box);
     counts.on_links += any_in(drawn.links, now[i].box);
@@ -118,9 +132,9 @@ TEST_P(WordsOfEveryScene, LieOnNothingAndDoNotJump) {
       count(counts, drawn_on(film.frame(k), light_theme(), panel), words,
             k > 0 ? film.words(panel, k - 1) : std::vector<StandingWord>());
     }
-  std::printf("%-20s %4d frames %5d words: on words %d, on arrows %d, on links %d, jumps %d, left out %d\n",
+  std::printf("%-20s %4d frames %5d words: on words %d, on arrows %d, on links %d, jumps %d, left out %d, off what they name by %.3f H, 95 %% by less than %.3f\n",
               GetParam().c_str(), counts.frames, counts.words, counts.on_words, counts.on_arrows, counts.on_links,
-              counts.jumps, counts.left_out);
+              counts.jumps, counts.left_out, counts.mean_off(), counts.off_of(0.95));
   EXPECT_EQ(counts.on_words, 0);
   EXPECT_EQ(counts.on_arrows, 0);
   EXPECT_EQ(counts.on_links, 0);

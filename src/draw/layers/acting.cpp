@@ -84,7 +84,7 @@ class VectorLayer : public Layer {
       const Point place = sight.camera.project(vector.place);
       if (vector.kind == VectorKind::torque || !is_within({place.x, place.y, place.x, place.y}, scene)) continue;
       const auto leaves = [&] {
-        return !is_within(moved(pen_.extent(vector, sight.camera, sight.marks, share), place), scene);
+        return !is_within(moved(pen_.bare_extent(vector, sight.camera, sight.marks, share), place), scene);
       };
       while (share > kLeastArrows && leaves()) share = std::max(kLeastArrows, share - kStep);
     }

@@ -291,24 +291,29 @@ PageLine VectorPen::line_of(const WorldVector& vector, const Camera& camera, dou
   return {tail, tail + arrow.v};
 }
 
-Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double marks, double share) const {
+Rect VectorPen::bare_extent(const WorldVector& vector, const Camera& camera, double marks, double share) const {
   if (vector.kind == VectorKind::torque) {
     const double r = marks * (size::kTorqueArc + size::kArrowHeadWidth / 2);
-    const Rect round{-r, -r, r, r};
-    return vector.label.empty() ? round : around(round, label_box(label(vector, marks), {0, r}, {0, 1}));
+    return {-r, -r, r, r};
   }
   const Straight arrow = straight(vector, camera, marks, share);
   if (norm(arrow.v) < size::kShortestArrow) return {};
   const double half = marks * size::kArrowHeadWidth / 2;
   const Point tail = arrow.shift, tip = arrow.shift + arrow.v;
-  const Rect shaft{std::min(tail.x, tip.x) - half, std::min(tail.y, tip.y) - half,
-                   std::max(tail.x, tip.x) + half, std::max(tail.y, tip.y) + half};
-  if (vector.label.empty()) return shaft;
-  return around(shaft, label_box(label(vector, marks), tip, unit(arrow.v)));
+  return {std::min(tail.x, tip.x) - half, std::min(tail.y, tip.y) - half, std::max(tail.x, tip.x) + half, std::max(tail.y, tip.y) + half};
+}
+
+Rect VectorPen::extent(const WorldVector& vector, const Camera& camera, double marks) const {
+  const Rect bare = bare_extent(vector, camera, marks);
+  if (vector.label.empty()) return bare;
+  if (vector.kind == VectorKind::torque) return around(bare, label_box(label(vector, marks), {0, bare.y1}, {0, 1}));
+  const Straight arrow = straight(vector, camera, marks);
+  if (norm(arrow.v) < size::kShortestArrow) return bare;
+  return around(bare, label_box(label(vector, marks), arrow.shift + arrow.v, unit(arrow.v)));
 }
 
 void VectorPen::add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks, double share) const {
-  const Rect r = extent(vector, camera, marks, share);
+  const Rect r = bare_extent(vector, camera, marks, share);
   const Point place = camera.flat(vector.place);
   const std::array<double, 4> sides{-r.x0, r.x1, -r.y0, r.y1};
   for (int side = 0; side < 4; ++side) {

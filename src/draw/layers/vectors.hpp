@@ -123,11 +123,12 @@ class VectorPen {
  public:
   VectorPen(const Theme& theme, const Fonts& fonts, double text_scale, const VectorScales& scales);
 
-  // Adds the place of a vector to `box` with the room that it and its label take, in the margin where there is one. `share`: of
-  // an arrow's length.
+  // Adds the place of a vector to `box` with the room that it takes, in the margin where there is one. `share`: of an arrow's length.
+  // Its word takes none: it has other places where there is no room beyond the tip.
   void add_to(FitBox& box, const WorldVector& vector, const Camera& camera, double marks, double share) const;
-  // What it covers on the page, label included, about the projection of its place; empty if it is not drawn.
-  Rect extent(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
+  // What it covers on the page about the projection of its place, without its label and with it; empty if it is not drawn.
+  Rect bare_extent(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
+  Rect extent(const WorldVector& vector, const Camera& camera, double marks) const;
   // From its tail to its tip; of a force or a velocity.
   PageLine line_of(const WorldVector& vector, const Camera& camera, double marks) const;
   // What is larger is cut.
