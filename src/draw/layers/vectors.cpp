@@ -24,6 +24,7 @@ constexpr double kOfMiddle = 2.4;         // of the middle size, whose arrow is 
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
 constexpr double kAboutPeak[] = {0.04, 0.08, 0.13, 0.19}, kLeastUntied = 0.1;  // units of H: where numbers of cut arrows stand about their places, and how short arrows then need a line
+constexpr double kFarName = 30;            // Tie::cost: a name stands near and goes while a link passes, rather than 0.15 H away; numbers stay
 constexpr double kBesideSwept = 0.03, kFarthestSwept = 0.3;  // units of H: from a circle that a link sweeps, half of its width included; words farther off name nothing
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
 constexpr double kLeastOfTie = 0.034;     // units of H: those of ties begin at a joint's disc, beyond which a head, 0.024 long, is to be seen
@@ -359,6 +360,7 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double half_head = marks * size::kArrowHeadWidth / 2;
   const double off = std::max({grown * radius, kNearestName * radius, kLeastLabelled * marks}) + half_head + kVectorLabelGap;
   MarkWord word{word_name(vector), text, {}, std::nullopt, Tie{center, grown * radius + half_head, style.color}};
+  if (!vector.peak) word.tie->cost = kFarName;
   const auto add_places = [&](double far, Point first) {
     for (const Rect& place : places_about(text, center, far, first)) {
       word.places.push_back(place);
@@ -408,7 +410,9 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const bool is_small = norm(arrow.v) < least_named;
   const bool stays = vector.kind == VectorKind::push || vector.kind == VectorKind::weight || vector.peak;
   if (vector.label.empty() || (is_small && !stays)) return;
-  const TextLine& text = label(vector, marks, vector.peak ? vector.peak->is_told : is_small);
+  // In a picture by itself that of a peak which is not told there has its place among the words, and no letters.
+  const bool is_blank = is_small && vector.peak && !vector.peak->is_told;
+  const TextLine text = is_blank ? TextLine{} : label(vector, marks, vector.peak ? vector.peak->is_told : is_small);
   ArrowPlaces places = places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2);
   MarkWord word{word_name(vector), text, std::move(places.boxes)};
   word.anchor = tail + arrow.v;
@@ -420,7 +424,8 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (vector.peak || vector.lane != 0) {
     // An arrow that is longer is near to all of these places.
     const double length = norm(arrow.v);
-    if (length < kLeastUntied) word.tie = Tie{tail, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
+    if (length < kLeastUntied && !is_blank) word.tie = Tie{tail, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
+    if (word.tie && !vector.peak) word.tie->cost = kFarName;
     for (const double off : kAboutPeak)
       for (const Rect& about : places_about(text, tail, off, {0, 1})) word.places.push_back(about);
   }

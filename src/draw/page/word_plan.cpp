@@ -395,7 +395,8 @@ WordPlan::Decisions WordPlan::decide(bool is_whole) const {
         const double poor = ground == Ground::poor ? kPoorGround * stands(m) : 0;
         if (now.insists) return (p * kWorseOfMany + now.leaders[std::size_t(p)]) / fps_ + poor + (is_met ? kPoorGround * stands(m) : 0);
         const double line = now.leaders.empty() ? 0 : now.leaders[std::size_t(p)];
-        return is_met ? never : (p * kWorsePlace + line) / fps_ + poor;
+        const double tied = own && now.tie ? now.tie->cost * norm(own->to - own->from) : 0;
+        return is_met ? never : (p * kWorsePlace + line + tied) / fps_ + poor;
       };
       const auto hidden = [&](std::size_t m) {
         const auto& fixed = track[m].fixed;

@@ -209,6 +209,21 @@ TEST(WordPlan, LinesOfWordsKeepOffOtherWords) {
   }
 }
 
+// A name whose tie costs stands near what it names, and goes while something passes; one whose tie does not stands far from it all along.
+TEST(WordPlan, WordsWhoseTiesCostStandNearAndGoWhileSomethingPasses) {
+  for (const double cost : {0.0, 30.0}) {
+    MarkWord word = word_at("tau", {{0.5, 0.5}, {0.8, 0.5}});
+    word.tie = Tie{{0.42, 0.5}, 0.05, {}, {}, 0.018, cost};
+    WordPlan plan(kPlanArea, kPlanFps);
+    for (int k = 0; k < 200; ++k) plan.add({word}, {bar(k % 50 >= 20 && k % 50 < 32 ? 0.5 : 0.1)});
+    int near = 0, far = 0;
+    for (const auto& frame : plan.standing())
+      if (frame[0].opacity > 0) ++(frame[0].box.x0 < 0.5 ? near : far);
+    EXPECT_EQ(near, cost > 0 ? 4 * 38 : 0) << cost;
+    EXPECT_EQ(far, cost > 0 ? 0 : 200) << cost;
+  }
+}
+
 TEST(WordPlan, StandsOnWhatMayYieldWhereNothingElseIsFree) {
   Obstacle rail = bar(0.5);
   rail.may_yield = true;
