@@ -209,6 +209,19 @@ TEST(Plots, OfMethodsThatErrShowWhatIsExact) {
   EXPECT_THAT(words_of("euler_gains_energy", {}), testing::Not(testing::HasSubstr("exact"))) << "the Taylor series is";
 }
 
+// A torque beyond its scale has a number beside its arc, or where arcs have no names, as those of seven joints, one beside the scale.
+TEST(Legend, TellsThePeaksThatNoNumberStandsBeside) {
+  const auto words_of = [](const std::string& model, const std::string& torque, const char* start = "start={q: [0, 0, 0, 0, 0, 0, 0]}") {
+    const PreparedFilm film = load_film("assets/scenes/rr_torque.yaml", {"model=" + model, start, "duration=2", "torque=" + torque});
+    const Runs runs(film);
+    return test::words_of(runs.pictures(runs.clock().frame_count(), Fonts()).static_layer());
+  };
+  const std::string peak = "2 + 60*exp(-((t-1)/0.06)^2)", seven = "{links: [0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2]}";
+  EXPECT_THAT(words_of(seven, "[\"" + peak + "\", 1, 1, 1, 1, 1, 1]"), testing::HasSubstr("up to 62"));
+  EXPECT_THAT(words_of(seven, "[1, 1, 1, 1, 1, 1, 1]"), testing::Not(testing::HasSubstr("up to"))) << "nothing is cut";
+  EXPECT_THAT(words_of("{links: [0.5, 0.5]}", "[\"" + peak + "\", 1]", "start={q: [0, 0]}"), testing::Not(testing::HasSubstr("up to"))) << "its number stands there";
+}
+
 // Panels of a motion that is narrow are as tall as the page, and their plot stands beside them; those of a wide one keep it below.
 TEST(LayoutCompare, HasThePlotBesidePanelsOfANarrowMotion) {
   const auto area_of = [](const std::vector<std::string>& more) {
@@ -221,6 +234,20 @@ TEST(LayoutCompare, HasThePlotBesidePanelsOfANarrowMotion) {
   EXPECT_LT(narrow.width(), 0.65 * wide.width());
   EXPECT_LT(upright.width(), 0.5 * 1080 / 1920.0) << "side by side, above their plot";
   EXPECT_GT(upright.height(), 0.4);
+}
+
+// The clip's end is no frame: a picture of it has a sample more, and a time with a digit more, and its panels where the film has them.
+TEST(LayoutCompare, StandsAtTheEndAsInTheFilm) {
+  const PreparedFilm film = load_film("assets/scenes/big_steps.yaml", {});
+  std::vector<double> times = frame_times(film.scene);
+  ASSERT_LT(times.back(), film.scene.duration);
+  std::vector<Rect> areas;
+  for (int i = 0; i < 2; ++i, times.push_back(film.scene.duration)) {
+    const Runs runs(film, {}, times);
+    areas.push_back(runs.pictures(int(times.size()), Fonts()).scene_area());
+  }
+  EXPECT_EQ(areas[0].width(), areas[1].width());
+  EXPECT_EQ(areas[0].height(), areas[1].height());
 }
 
 TEST(LayoutAuto, TakesNothingFromAMotionAndNothingIsToldOfPicturesOfMassesOrWithoutWords) {

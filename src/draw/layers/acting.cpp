@@ -66,6 +66,7 @@ class VectorLayer : public Layer {
         const bool is_named = stage_->shows("legend") || (kind == VectorKind::torque && has_damper(stage_->motions[i]));
         for (ScaleEntry& entry : scale_entries(scales_, {kind}, is_named, stage_->theme)) {
           entry.order = int(i * kVectorKinds.size()) + int(kind);
+          if (const double most = largest_untold(kind); most > 0) entry.text += ", up to " + format_significant(most, 2) + "\u2009" + unit_of(kind);
           text.scales.push_back(std::move(entry));
         }
       }
@@ -120,6 +121,30 @@ class VectorLayer : public Layer {
  private:
   bool has_damper(const StagedRun& motion) const {
     return std::ranges::any_of(devices_of(*stage_, motion), [](const Device& device) { return device.drive.damping > 0; });
+  }
+
+  // Of those of a kind that are cut at frames at which no number can stand beside them, as where many have no names, or for too short to
+  // be read, the largest size; 0: there are none.
+  double largest_untold(VectorKind kind) const {
+    const double cut = pen_.cut_beyond(kind);
+    double most = 0;
+    for (std::size_t i = 0; i < stage_->full_panels(); ++i) {
+      const StagedRun& motion = stage_->motions[i];
+      if (!motion.counts()) continue;
+      std::map<VectorName, std::vector<double>> numbers;
+      for (int k = 0; k < motion.samples(); ++k) {
+        Names names;
+        for (const WorldVector& vector : vectors_at_(motion, motion.pose_at(k), k))
+          if (const VectorName name = names.next(vector); vector.kind == kind)
+            numbers.try_emplace(name, std::size_t(motion.samples())).first->second[std::size_t(k)] = vector.extreme.value_or(number_of(vector));
+      }
+      for (const auto& [name, values] : numbers) {
+        const std::vector<std::optional<Peak>> told = peaks_along(values, cut, stage_->page.video.fps.value());
+        for (std::size_t k = 0; k < values.size(); ++k)
+          if (const double size = std::abs(values[k]); size > cut && std::isfinite(size) && (name.first.empty() || !told[k])) most = std::max(most, size);
+      }
+    }
+    return most;
   }
 
   // The same vector from frame to frame: by its label, and which of these it is.
