@@ -144,7 +144,8 @@ double full_magnitude(std::vector<Magnitude> magnitudes) {
 
 double without_needles(double full, std::vector<Magnitude> largest) {
   const double middle = magnitude_below(std::move(largest), 0.5);
-  return middle > 0 && middle * size::kLongestArrow < kLeastLabelled * full ? kOfMiddle * middle : full;
+  // Dots of arrows that have half of their lengths, too, as beside the edge of their scene.
+  return middle > 0 && kLeastArrows * middle * size::kLongestArrow < kLeastOfTie * full ? kOfMiddle * middle : full;
 }
 
 std::array<double, kVectorKinds.size()> VectorMagnitudes::full() const {

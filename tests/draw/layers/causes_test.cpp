@@ -588,7 +588,8 @@ TEST(ConstraintForces, HaveAScaleThatNeedlesDoNotDecideOn) {
     return all;
   };
   EXPECT_DOUBLE_EQ(without_needles(100, sizes(2, 100, 8)), 4.8);
-  EXPECT_DOUBLE_EQ(without_needles(10, sizes(2, 10, 8)), 10) << "a fifth of it is seen";
+  EXPECT_DOUBLE_EQ(without_needles(10, sizes(2, 10, 8)), 4.8) << "a fifth of it is a dot where arrows have half of their lengths";
+  EXPECT_DOUBLE_EQ(without_needles(5, sizes(2, 5, 8)), 5) << "two fifths are seen then, too";
   EXPECT_DOUBLE_EQ(without_needles(100, sizes(0, 100, 8)), 100) << "nothing acts else";
 }
 
