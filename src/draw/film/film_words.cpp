@@ -75,9 +75,14 @@ class Gatherer {
 
 // The ink of a word, and the line of one that was asked for, as obstacles to others.
 void add_obstacles(const StandingWord& word, const MarkWord& of, std::vector<Obstacle>& obstacles) {
+  constexpr double kRow = 0.025;  // units of H: of words on several lines one capsule would leave the corners
   const Rect& box = word.box;
-  const double radius = std::min(box.width(), box.height()) / 2, y = center_of(box).y;
-  obstacles.push_back({{box.x0 + radius, y}, {box.x1 - radius, y}, radius + kBetweenWords});
+  const int rows = std::max(1, int(std::lround(box.height() / kRow)));
+  const double radius = std::min(box.width(), box.height() / rows) / 2;
+  for (int row = 0; row < rows; ++row) {
+    const double y = box.y0 + (row + 0.5) * box.height() / rows;
+    obstacles.push_back({{box.x0 + radius, y}, {box.x1 - radius, y}, radius + kBetweenWords});
+  }
   const std::optional<TieLine> line = of.leader ? line_of(*of.leader, box) : std::nullopt;
   if (line) obstacles.push_back({line->from, line->to, kBetweenWords});
 }
@@ -178,7 +183,7 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
   const std::vector<StandingWord> in_film = standing(stage, layers, view, panels, panel, frame);
   const auto lies_on_word = [&](std::size_t i) {
     for (std::size_t j = 0; j < words.size(); ++j)
-      if (j != i && words[j].opacity > 0 && overlap(words[i].box, words[j].box)) return true;
+      if (j != i && words[j].opacity > 0 && overlap(widened(words[i].box, kBetweenWords), words[j].box)) return true;
     return false;
   };
   for (std::size_t i = 0; i < std::min(words.size(), in_film.size()); ++i)
