@@ -297,6 +297,30 @@ TEST(GalleryPoster, IsTheLastEventOrTwoFifthsOfTheFilm) {
   EXPECT_DOUBLE_EQ(poster_time({{"events", "none"}}, 10), 4);
 }
 
+TEST(GalleryPoster, IsWhereTheFilmFirstStandsStill) {
+  Json audit{{"frames", 600}, {"events", Json::array()}, {"pauses", {{{"at", 4}, {"seconds", 2}, {"film_from", 6}}, {{"at", 2}, {"seconds", 1}, {"film_from", 3}}}}};
+  EXPECT_DOUBLE_EQ(poster_time(audit, 10), 3.5);
+  EXPECT_DOUBLE_EQ(poster_time(audit, 3), 0.4 * 3) << "not in the film";
+  audit["events"] = {{{"t", 1.5}}};
+  EXPECT_DOUBLE_EQ(poster_time(audit, 10), 1.5) << "an event comes first";
+}
+
+// On an empty page the button is in the middle; beside words there it is where they are not.
+TEST(GalleryPoster, ItsButtonCoversNoWords) {
+  Image poster(320, 180);
+  std::fill(poster.bgra.begin(), poster.bgra.end(), std::uint8_t(255));
+  const Point middle = button_place(poster);
+  EXPECT_DOUBLE_EQ(middle.x, 0.5);
+  EXPECT_DOUBLE_EQ(middle.y, 0.5);
+  for (int y = 84; y < 96; ++y)
+    for (int x = 100; x < 220; ++x)
+      for (int k = 0; k < 3; ++k) poster.bgra[std::size_t(4 * (320 * y + x) + k)] = 0;
+  const Point beside = button_place(poster);
+  const double radius = 1.25 / 25 * 320;  // 1.25 rem of a card of 25
+  EXPECT_GT(std::abs(beside.y - 0.5) * 180, 6 + radius);
+  EXPECT_LT(std::abs(beside.y - 0.5), 0.16);
+}
+
 TEST(GalleryAudit, PutsRunsSideBySideAndEnduresStrangeKinds) {
   const Json audit{
       {"duration", 3},

@@ -182,7 +182,7 @@ TEST(LayoutAuto, TellsTheStoryBesideANarrowMotionAndBelowAFlatOne) {
     const TwoPages pages(narrow, {"plot=null"});  // of a scene that names plots itself, too
     EXPECT_LT(pages.area.width(), 0.65 * pages.whole.width()) << narrow;
     EXPECT_EQ(pages.area.height(), pages.whole.height()) << narrow;
-    EXPECT_GE(pages.kept, 0.9) << narrow;
+    EXPECT_GE(pages.kept, 0.85) << narrow;
   }
   const TwoPages flat("pp_spring", {"camera.fit=[-2, -0.5, 2, 0.5]"});
   EXPECT_EQ(flat.area.width(), flat.whole.width());

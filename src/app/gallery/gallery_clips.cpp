@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -188,6 +189,16 @@ FilmClock clock_of(const Json& audit, double end) {
   return FilmClock(end, {}, stretches, pauses);
 }
 
+// Where the film first stands still to point at something, s of the film.
+std::optional<double> first_pause(const Json& audit, double film_seconds) {
+  std::optional<double> first;
+  for (const Json& pause : audit.value("pauses", Json::array())) {
+    const double middle = pause.at("film_from").get<double>() + pause.at("seconds").get<double>() / 2;
+    if (middle >= 0 && middle <= film_seconds) first = std::min(first.value_or(middle), middle);
+  }
+  return first;
+}
+
 }  // namespace
 
 bool is_chart_name(const std::string& name) {
@@ -196,6 +207,34 @@ bool is_chart_name(const std::string& name) {
 
 std::string played_endings(const std::string& last_word) {
   return endings_of([](const OutputFormat& row) { return row.shows == Shows::motion && *row.browser_type != 0; }, last_word);
+}
+
+Point button_place(const Image& poster) {
+  constexpr int kSteps = 6;                                     // to each side
+  constexpr double kFarthest = 0.15, kRadius = 0.055, kPerWay = 0.5;  // of the width; of what it covers, for all of that way
+  constexpr int kLevels = 24;                                   // of 255, by which ink differs from the page
+  const Pixel page = poster.at(0, 0);
+  const auto is_ink = [&](int x, int y) {
+    const Pixel p = poster.at(x, y);
+    return std::max({std::abs(p.r - page.r), std::abs(p.g - page.g), std::abs(p.b - page.b)}) > kLevels;
+  };
+  const double width = poster.width, height = poster.height, radius = kRadius * width, step = kFarthest * std::min(width, height) / kSteps;
+  const auto covered = [&](double x, double y) {
+    int ink = 0, all = 0;
+    for (int j = int(std::max(0.0, y - radius)); j < std::min(height, y + radius); ++j)
+      for (int i = int(std::max(0.0, x - radius)); i < std::min(width, x + radius); ++i)
+        if (std::hypot(i - x, j - y) < radius) ink += is_ink(i, j), ++all;
+    return double(ink) / std::max(all, 1);
+  };
+  Point best{0.5, 0.5};
+  double least = HUGE_VAL;
+  for (int j = -kSteps; j <= kSteps; ++j)
+    for (int i = -kSteps; i <= kSteps; ++i) {
+      const double x = width / 2 + i * step, y = height / 2 + j * step;
+      const double cost = covered(x, y) * (1 + kPerWay) + kPerWay * std::hypot(i, j) / kSteps * kRadius;
+      if (cost < least) least = cost, best = {x / width, y / height};
+    }
+  return best;
 }
 
 double poster_time(const Json& audit, double film_seconds) {
@@ -210,7 +249,7 @@ double poster_time(const Json& audit, double film_seconds) {
     };
     look(audit);
     for (const Json& panel : audit.value("panels", Json::array())) look(panel);
-    if (!last) return otherwise;
+    if (!last) return first_pause(audit, film_seconds).value_or(otherwise);
     double held = 0;
     if (audit.contains("held_frames"))
       held = audit["held_frames"].at("first").get<double>() * film_seconds / audit.at("frames").get<double>();

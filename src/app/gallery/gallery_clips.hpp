@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/image.hpp"
 #include "core/json.hpp"
 #include "encode/film_start.hpp"
+#include "picture/point.hpp"
 
 namespace chainreel {
 
@@ -51,7 +53,11 @@ FoundClips find_clips(const std::vector<std::string>& paths);
 // Throws Error (exit 3) with the problems of all that cannot be played.
 std::vector<GalleryClip> read_clips(const std::vector<std::string>& paths);
 
-// The instant of the film, s, that its poster shows: its last event, else 40 % of the film.
+// Where a button about the middle of a poster covers least of what is drawn there; of its width and its height, from the upper left.
+Point button_place(const Image& poster);
+
+// The instant of the film, s, that its poster shows: its last event, else where it first stands still to point at something, else 40 % of the
+// film.
 double poster_time(const Json& audit, double film_seconds);
 
 }  // namespace chainreel

@@ -70,12 +70,15 @@ Filler scene_of(const GalleryClip& clip, const std::string& id) {
 // A film with its controls; of pictures that move by themselves the picture.
 Filler moving_of(const GalleryClip& clip, const std::string& id) {
   return [&clip, id](std::ostream& stream) {
+    const Point button = button_place(clip.start.frame);
     fill_page(stream, embedded_page(clip.type.starts_with("image/") ? "moving_picture.html" : "film.html"),
               {{"id", plain(id)},
                {"type", plain(clip.type)},
                {"width", plain(std::to_string(clip.start.width))},
                {"height", plain(std::to_string(clip.start.height))},
                {"poster", markup(base64(png_bytes(clip.start.frame)))},
+               {"button_left", plain(format_fixed(100 * button.x, 1))},
+               {"button_top", plain(format_fixed(100 * button.y, 1))},
                {"poster_at", plain(format_fixed(poster_time(clip.audit, clip.start.seconds), 3))},
                {"words", plain(clip.words)},
                {"film", file_in_base64(clip.path)}});

@@ -25,7 +25,7 @@ function element(name, properties, ...children) {
 }
 
 // A browser's own controls lie over the film's lower edge, where its words are: these stand below it. The picture that stands
-// for a film shows until somebody plays it, with a small button in its middle; so long its instant is told.
+// for a film shows until somebody plays it, with a small button about its middle, where it covers least; so long its instant is told.
 for (const video of document.querySelectorAll('video')) {
   const title = document.getElementById(video.getAttribute('aria-labelledby')).textContent;
   const film = video.parentElement;
@@ -39,6 +39,8 @@ for (const video of document.querySelectorAll('video')) {
   video.tabIndex = 0;
   film.classList.add('own');
   video.replaceWith(frame);
+  start.style.left = video.dataset.buttonLeft + '%';
+  start.style.top = video.dataset.buttonTop + '%';
   frame.append(video, start);
   film.append(element('div', {className: 'controls'}, play, place, time, whole));
 
