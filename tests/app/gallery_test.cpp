@@ -290,6 +290,8 @@ TEST(GalleryPoster, IsTheLastEventOrTwoFifthsOfTheFilm) {
   // From 2 s on four times slower, until 2.5 s, which the film reaches 3 s + 2 s later.
   audit["slow_motion"] = {{{"from", 2}, {"until", 2.5}, {"speed", 0.25}, {"film_from", 3}, {"film_until", 5}}};
   EXPECT_DOUBLE_EQ(poster_time(audit, 10), 5.5);
+  audit["slow_motion"][0]["ease"] = nullptr;  // of the scene's own: as audits have it
+  EXPECT_DOUBLE_EQ(poster_time(audit, 10), 5.5);
   audit["events"] = {{{"t", 2.25}}};
   EXPECT_DOUBLE_EQ(poster_time(audit, 10), 4);
   EXPECT_DOUBLE_EQ(poster_time({{"panels", {{{"events", {{{"t", 2}}}}}, Json::object()}}}, 10), 2);

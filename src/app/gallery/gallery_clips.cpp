@@ -181,7 +181,7 @@ FilmClock clock_of(const Json& audit, double end) {
   std::vector<Stretch> stretches;
   for (const Json& slow : audit.value("slow_motion", Json::array()))
     stretches.push_back({slow.at("from").get<double>(), slow.at("until").get<double>(), slow.at("speed").get<double>(),
-                         slow.value("ease", 0.0)});
+                         slow.value("ease", Json()).is_number() ? slow["ease"].get<double>() : 0.0});
   for (const Stretch& one : stretches) end = std::max(end, one.until);
   std::vector<Pause> pauses;
   for (const Json& pause : audit.value("pauses", Json::array()))
