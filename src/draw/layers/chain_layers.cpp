@@ -82,7 +82,8 @@ class OutlinedTrail : public Outlined {
     if (on_rails_.contains(&shot.panel.motion())) return;
     const Color color = shot.panel.motion().variant()->color;
     const Theme& theme = *shot.panel.look().theme;
-    draw_trail(picture, shot.panel.tip(), shot.k, toned(color, outline_look(shot)), shot.panel.clip(), theme.lines, theme.trail, trail_opacity(theme));
+    draw_trail(picture, shot.panel.tip(), shot.k, toned(color, outline_look(shot)), shot.panel.clip(), theme.lines, theme.trail, trail_opacity(theme),
+               longest_trail(shot.panel));
   }
 
  private:

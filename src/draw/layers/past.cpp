@@ -21,6 +21,22 @@ double freshness(double age, double length) {
   return std::clamp(1 - age / length, 0.0, 1.0);
 }
 
+// The instant, not before `since`, from which on the way to frame k is no longer than `longest`.
+double way_begins(const TipPath& path, int k, double since, double longest) {
+  double way = 0;
+  for (int i = k - 1; i >= 0 && path.time(i + 1) > since; --i) {
+    const int pieces = path.pieces(i, kPiece, kMostPieces);
+    const double step = (path.time(i + 1) - path.time(i)) / pieces;
+    for (int j = pieces; j > 0; --j) {
+      const double to = path.time(i) + j * step;
+      const double piece = norm(path.at(to) - path.at(to - step));
+      if (way + piece > longest) return std::max(since, to - (longest - way) / piece * step);
+      way += piece;
+    }
+  }
+  return since;
+}
+
 TrailPoint trail_point(const TipPath& path, double t, double now, double lines, double length, double opacity) {
   const double fresh = freshness(now - t, length);
   return {path.at(t), lines * (size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail)),
@@ -61,7 +77,7 @@ class TrailLayer : public Layer {
 
   void draw(Picture& picture, const Shot& shot) const override {
     if (on_rails_.contains(&shot.panel.motion())) return;
-    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip(), theme_->lines, theme_->trail, trail_opacity(*theme_));
+    draw_trail(picture, shot.panel.tip(), shot.k, color_of(shot.panel.motion()), shot.panel.clip(), theme_->lines, theme_->trail, trail_opacity(*theme_), longest_trail(shot.panel));
   }
 
  private:
@@ -174,10 +190,18 @@ double trail_opacity(const Theme& theme) {
   return theme.background.g < 128 ? kTrailOpacityOnDark : kTrailOpacity;
 }
 
-void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines, double length, double opacity) {
+double longest_trail(const Panel& panel) {
+  return panel.look().theme->trail > kTrailSeconds ? HUGE_VAL : kTrailReaches * panel.skeleton().reach * panel.camera().scale;
+}
+
+void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines, double length, double opacity, double longest) {
   const double now = path.time(k);
-  const double since = path.gapless_since(k, now - length);
+  double since = path.gapless_since(k, now - length);
   if (!(since < now)) return;
+  if (const double begin = std::isinf(longest) ? since : way_begins(path, k, since, longest); begin > since) {
+    since = begin;
+    length = now - begin;
+  }
   Trail trail;
   trail.color = color;
   for (int i = path.frame_at(since); i < k; ++i) {

@@ -1,6 +1,7 @@
 // What was: the way of the end effector behind it, and the chain as it stood at earlier instants.
 #pragma once
 
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -14,9 +15,13 @@ inline constexpr double kTrailSeconds = 1.0;
 inline constexpr int kTrailDotsPerSecond = 10;
 inline constexpr double kTrailOpacity = 0.7, kTrailOpacityOnDark = 0.9;  // where it begins: on dark ground the same is fainter
 double trail_opacity(const Theme& theme);
-// The trail as it stands at frame k; `lines`: times its width; `length`: how far it goes back, s.
+// A trail is no longer on the page than so many times all links together: that of a fast end effector would lie over them loop by loop. One that a
+// style lets go back further than a second is as asked.
+inline constexpr double kTrailReaches = 2;
+double longest_trail(const Panel& panel);
+// The trail as it stands at frame k; `lines`: times its width; `length`: how far it goes back, s; `longest`: on the page.
 void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines = 1, double length = kTrailSeconds,
-                double opacity = kTrailOpacity);
+                double opacity = kTrailOpacity, double longest = HUGE_VAL);
 
 // Those whose end effector only goes to and fro on one rail that is drawn, and shows its way: a trail along that would be taken for a rod.
 std::set<const StagedRun*> runs_on_rails(const Stage& stage);

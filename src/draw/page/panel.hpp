@@ -58,6 +58,7 @@ class Panel {
   // Rails become as long as those of another panel, whose motion they show, too, or beside which they stand.
   void let_rails_reach(const std::vector<Rail>& others);
   const std::vector<Rail>& rails() const { return skeleton_.rails; }
+  const Skeleton& skeleton() const { return skeleton_; }
 
   const StagedRun& motion() const { return *motion_; }
   const Chain& chain() const { return motion_->chain(); }

@@ -49,6 +49,24 @@ TEST(Trail, GoesBackAsFarAsAStyleSays) {
   }
 }
 
+// 0.3 H kOmega in a second: a bound of half of that is half a second of the circle, faded over that; a longer one changes nothing.
+TEST(Trail, OfAFastEndEffectorIsBoundedByItsWay) {
+  const TipPath path = circle(200);
+  const double way = 0.3 * kOmega;
+  Picture bounded, free, unbounded;
+  draw_trail(bounded, path, 150, light_theme().curve[1], -1, 1, kTrailSeconds, kTrailOpacity, way / 2);
+  draw_trail(free, path, 150, light_theme().curve[1], -1, 1, kTrailSeconds, kTrailOpacity, 1.01 * way);
+  draw_trail(unbounded, path, 150, light_theme().curve[1], -1);
+  const std::vector<TrailPoint> points = test::all_of<Trail>(bounded).at(0).points;
+  // Chords of at most kPiece = 0.006 H are shorter than the circle's arc by (0.02)^2 / 24 of it.
+  EXPECT_LT(test::distance(points.front().p, on_circle(150 / 60.0 - 0.5)), 1e-4);
+  EXPECT_NEAR(points.front().alpha, 0, 1e-12);
+  EXPECT_NEAR(points.back().alpha, kTrailOpacity, 1e-12);
+  const std::vector<TrailPoint> one = test::all_of<Trail>(free).at(0).points, other = test::all_of<Trail>(unbounded).at(0).points;
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].alpha, other[i].alpha);
+}
+
 TEST(Trail, IsAsWideAsTheLinesOfAStyle) {
   const TipPath path = circle(200);
   Picture plain, wide;
