@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "app/film/prepared.hpp"
@@ -104,6 +105,43 @@ double area_of_plot(const Picture& picture) {
     box = {std::min(box.x0, line->a.x), std::min(box.y0, line->a.y), std::max(box.x1, line->a.x), std::max(box.y1, line->a.y)};
   }
   return (box.x1 - box.x0) * (box.y1 - box.y0);
+}
+
+// Where these words begin.
+std::optional<Point> place_of(const Picture& picture, const std::string& words) {
+  for (const Item& item : picture.items)
+    if (const auto* run = std::get_if<GlyphRun>(&item.shape); run && run->text.find(words) != std::string::npos) return run->origin;
+  return std::nullopt;
+}
+
+bool says(const Picture& picture, const std::string& words) {
+  return place_of(picture, words).has_value();
+}
+
+TEST(Reading, APlotStandsInTheCellThatPanelsWouldLeaveEmpty) {
+  for (const auto& [scene, title] : {std::pair{"euler_gains_energy", "energy [J]"}, {"pen_drift", "off the line [m]"}}) {
+    const Page page(scene, size_of(1080, 1080));
+    const std::optional<Point> at = place_of(page.picture, title);
+    ASSERT_TRUE(at) << scene;
+    EXPECT_GT(at->x, page.pictures.scene_area(2).x1) << scene;
+    EXPECT_LT(at->y, page.pictures.scene_area(1).y0) << scene;
+    EXPECT_GT(at->y, page.pictures.scene_area(2).y0) << scene;
+  }
+}
+
+TEST(Reading, NamesOfTheLegendGoBeforeThePlot) {
+  const Page page("humanoid_fall", size_of(1080, 1920)), parabola("pp_free", size_of(1080, 1920)), wide("humanoid_fall", size_of(1920, 1080));
+  EXPECT_TRUE(says(page.picture, "centre of pressure [m]"));
+  EXPECT_FALSE(says(page.picture, "centre of mass"));
+  EXPECT_TRUE(says(page.picture, "ground reaction")) << "a scale stays";
+  EXPECT_TRUE(says(wide.picture, "centre of mass"));
+  EXPECT_TRUE(says(parabola.picture, "energy [J]"));
+}
+
+TEST(Reading, LowPanelsTakeTheRowsOfFormulas) {
+  const Page page("big_steps", size_of(480, 270));
+  EXPECT_THAT(page.pictures.left_out(), testing::Contains("torque_label"));
+  EXPECT_GT(page.pictures.scene_area(0).height(), 0.36) << "with a row of formulas 0.32";
 }
 
 TEST(Reading, LargeWordsTakeTheirRoomFromTheSceneNotFromPlots) {

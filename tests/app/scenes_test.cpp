@@ -194,7 +194,9 @@ TEST(LayoutAuto, OnAPageHigherThanWideANarrowMotionGivesMoreToItsPlot) {
   const TwoPages spring("pp_spring", {"video.width=1080", "video.height=1920"});
   EXPECT_LT(spring.area.height(), 0.8 * spring.whole.height());
   EXPECT_GE(spring.kept, 0.6);
-  EXPECT_TRUE(TwoPages("pp_free", {"video.width=1080", "video.height=1920"}).is_whole()) << "that motion fills the page";
+  const TwoPages parabola("pp_free", {"video.width=1080", "video.height=1920"});
+  EXPECT_FALSE(parabola.is_whole());
+  EXPECT_GE(parabola.kept, 0.75) << "that motion fills the page";
 }
 
 // Steps so long that both runs err have the exact motion in their plot; of runs of which one is exact there is no more to say.

@@ -27,6 +27,9 @@ constexpr double kKeptOfFrame = 0.9;   // of the frame of a plot at text_scale 1
 constexpr double kMostForWords = 0.75; // of the width or the height that plots share with the scene
 constexpr double kKeptBesideWords = 0.4;  // of the scene's size at text_scale 1
 constexpr double kSmallerWords = 0.93;  // from trial to trial
+constexpr double kLowPanel = 0.4;      // of the page's height: so low panels take the rows of formulas above them
+constexpr double kLargerInGrid = 1.1;  // times the scale, for a plot in the grid of its panels
+constexpr double kFrameInGrid = 0.5;   // ... of the area of its frame
 constexpr int kRoomTrials = 4;         // each finds most of what is lacking
 
 // The first in the order that the page still shows; null where none is left.
@@ -62,12 +65,38 @@ struct Shown {
   const Fonts& fonts;
   const FilmClock& clock;
   ArrowShares arrows;
+  bool without_names = false;  // of the legend, for the sake of a plot
 };
+
+// Rows of formulas above panels that are low; `left_out` counts what had to go.
+Composition with_rows_for_panels(Composition low, const Shown& film, const Story& story, const PlotRoom& room) {
+  Scene shown = low.stage->page;
+  std::vector<std::string> gone;
+  for (const char* name : {"equation", "torque_label"}) {
+    if (!low.stage->has_cells() || low.view.cells.front().scene.height() >= kLowPanel) break;
+    if (std::erase(shown.draw, std::string(name)) == 0) continue;
+    gone.push_back(name);
+    try {
+      auto stage = std::make_unique<const Stage>(shown, film.runs, film.times, film.fonts, film.clock, film.arrows);
+      Layers layers = layers_of(*stage);
+      FilmSheet sheet(*stage, layers, story, room);
+      FilmView view(*stage, layers, sheet);
+      if (!(view.camera.scale > low.view.camera.scale * (1 + kRoundOff))) continue;
+      low = {std::move(stage), std::move(layers), std::move(sheet), std::move(view), std::move(low.left_out), std::move(low.given)};
+      low.given.insert(low.given.end(), gone.begin(), gone.end());
+      gone.clear();
+    } catch (const Error& error) {
+      if (!tells_of_no_room(error)) throw;
+    }
+  }
+  return low;
+}
 
 Composition with_readable_words(const Scene& page, const Shown& film, const Story& story,
                                 PlotRoom room = {}) {
   Scene shown = page;
   shown.text_scale = text_scale_of_page(page);
+  room.without_names = room.without_names || film.without_names;
   const bool is_enlarged = shown.text_scale > page.text_scale;
   std::vector<std::string> left_out;
   while (true) {
@@ -78,7 +107,8 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
       FilmSheet sheet(*stage, layers, story, room);
       if (next == nullptr || sheet.sheet.scene.height() >= kLeastScene) {
         FilmView view(*stage, layers, sheet);
-        return {std::move(stage), std::move(layers), std::move(sheet), std::move(view), std::move(left_out)};
+        Composition whole{std::move(stage), std::move(layers), std::move(sheet), std::move(view), std::move(left_out), {}};
+        return is_enlarged && !(page.video.least_text > 0) ? with_rows_for_panels(std::move(whole), film, story, room) : std::move(whole);
       }
     } catch (const Error& error) {
       if (next == nullptr || !tells_of_no_room(error)) throw;
@@ -86,6 +116,10 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
     std::erase(shown.draw, std::string(next));
     left_out.push_back(next);
   }
+}
+
+double area_of(const PlotStrip& plot) {
+  return plot.frame().box.width() * plot.frame().box.height();
 }
 
 // Panels of a narrow motion, beside one another, stand beside their plots where they are no smaller there, each as wide as its motion and its title are.
@@ -130,12 +164,45 @@ std::optional<Composition> with_narrow_plots(const Scene& page, const Shown& fil
   return std::nullopt;
 }
 
+bool has_empty_cell(const std::vector<PanelCell>& cells) {
+  std::size_t columns = 0;
+  for (const PanelCell& cell : cells) columns += cell.scene.y0 == cells.front().scene.y0 ? 1 : 0;
+  return cells.size() % columns != 0;
+}
+
+// A plot of a grid's panels takes the cell that they would leave empty, or one of a grid in which they are larger for it.
+std::optional<Composition> with_plot_in_grid(const Scene& page, const Shown& film, const Story& story, const Composition& below) {
+  const int count = int(below.view.cells.size()) + 1;
+  const bool may_stand = below.stage->has_cells() && page.layout != PageLayout::compare && below.sheet.plots.size() == 1 && !(page.video.least_text > 0) &&
+                         !(page.video.panel_names > 0);
+  if (!may_stand) return std::nullopt;
+  std::optional<Composition> best;
+  double least = (has_empty_cell(below.view.cells) ? 1 : kLargerInGrid) * below.view.camera.scale;
+  for (int columns = 2; columns < count; ++columns) {
+    if (count % columns != 0) continue;
+    PlotRoom room;
+    room.columns = columns;
+    try {
+      Composition inside = with_readable_words(page, film, story, room);
+      const bool is_as_good = inside.left_out.size() <= below.left_out.size() && inside.view.camera.scale >= least &&
+                              area_of(inside.sheet.plots.front()) >= kFrameInGrid * area_of(below.sheet.plots.front()) && lack_of_room(inside).what.empty();
+      if (!is_as_good) continue;
+      least = inside.view.camera.scale;
+      best.emplace(std::move(inside));
+    } catch (const Error& error) {
+      if (!tells_of_no_room(error)) throw;
+    }
+  }
+  return best;
+}
+
 // Plots beside a narrow motion have the width that it leaves; those below a flat one, on pages that are narrow, of its height. `is_ours`: nobody
 // asked for them to stand there.
 Composition with_spare_room(const Scene& page, const Shown& film, const Story& story, bool is_ours) {
   Composition usual = with_readable_words(page, film, story);
   if (page.camera.fit) return usual;
   if (std::optional<Composition> beside = with_plots_beside_panels(page, film, story, usual)) return std::move(*beside);
+  if (std::optional<Composition> inside = with_plot_in_grid(page, film, story, usual)) return std::move(*inside);
   if (is_ours)
     if (std::optional<Composition> narrow = with_narrow_plots(page, film, story, usual)) return std::move(*narrow);
   const Rect& scene = usual.sheet.sheet.scene;
@@ -152,10 +219,6 @@ Composition with_spare_room(const Scene& page, const Shown& film, const Story& s
   const double spare = usual.view.cells.front().scene.height() - usual.view.size_used().y - kKeptBeside;
   room.each = std::min(high + kPlotsOfSpare * spare / count, kHighestPlots / count);
   return room.each > high + kWorthwhile ? with_readable_words(page, film, story, room) : std::move(usual);
-}
-
-double area_of(const PlotStrip& plot) {
-  return plot.frame().box.width() * plot.frame().box.height();
 }
 
 // By how much the frame of the plot that words have made smallest is smaller than it is with words of their usual size.
@@ -223,6 +286,7 @@ struct Layout {
   Scene page;
   Story story;
   bool is_ours = false;  // where the plot stands
+  bool without_names = false;
 };
 
 // Whether what happens can be told by its name below each scene, as small as can be read: beside a plot the row is narrower.
@@ -249,24 +313,36 @@ Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
   const double kept = is_of_methods                ? kLeastKeptOfMethods
                       : is_comparison && !is_ghost ? kLeastKeptOfPanels
                       : leaves_half                ? kLeastKeptOfNarrow
+                      : is_narrow(page)            ? kLeastKeptStacked
                                                    : kLeastKept;
   // Where plots of a comparison stand FilmSheet knows.
   const std::vector<PageLayout> layouts = is_comparison ? std::vector{page.layout} : std::vector{PageLayout::scene_right, PageLayout::scene_below};
-  for (const PageLayout layout : layouts) {
+  // Names of the legend go before the plot.
+  struct Trial {
+    PageLayout layout;
+    bool without_names;
+  };
+  std::vector<Trial> trials;
+  for (const bool without_names : {false, true})
+    for (const PageLayout layout : layouts) trials.push_back({layout, without_names});
+  for (const auto& [layout, without_names] : trials) {
+    if (without_names && !is_narrow(page)) break;
     Scene with_plot = page;
     with_plot.layout = layout;
+    Shown shown = film;
+    shown.without_names = without_names;
     try {
-      Composition told = with_wide_plots(with_plot, film, story, true);
+      Composition told = with_wide_plots(with_plot, shown, story, true);
       const double least = kept * plain.view.camera.scale;
       // What large words take from the scene so that the plot keeps its frame is no reason to leave the plot out.
       const bool keeps_size = told.view.camera.scale >= least ||
-                              (has_large_words(page) && with_spare_room(with_plot, film, story, true).view.camera.scale >= least);
+                              (has_large_words(page) && with_spare_room(with_plot, shown, story, true).view.camera.scale >= least);
       // Words go in one order: fewer of them are some of those that go else.
       if (told.left_out.size() > plain.left_out.size() || !keeps_size) continue;
       if (page.video.least_text > 0 && page.plot.empty() && !lack_of_room(told).what.empty()) continue;
       if (page.plot.empty() && !notes_have_room(told)) continue;
       plain = std::move(told);
-      return {with_plot, story, true};
+      return {with_plot, story, true, without_names};
     } catch (const Error& error) {
       if (!tells_of_no_room(error)) throw;
     }
@@ -278,14 +354,19 @@ Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
 
 Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
                     const FilmClock& clock) {
-  Shown film{runs, times, fonts, clock, {}};
+  Shown film{runs, times, fonts, clock, {}, false};
   Composition composition = with_wide_plots(page, film, {});
   const Layout layout = with_story(page, film, composition);
   const ArrowShares& shares = composition.view.arrows;
-  if (std::all_of(shares.begin(), shares.end(), [](const auto& one) { return one.second == 1; })) return composition;
+  const auto told = [](Composition whole) {
+    whole.left_out.insert(whole.left_out.end(), whole.given.begin(), whole.given.end());
+    return whole;
+  };
+  if (std::all_of(shares.begin(), shares.end(), [](const auto& one) { return one.second == 1; })) return told(std::move(composition));
   // The scale that is printed is that of the arrows as they are drawn.
   film.arrows = shares;
-  return with_wide_plots(layout.page, film, layout.story, layout.is_ours);
+  film.without_names = layout.without_names;
+  return told(with_wide_plots(layout.page, film, layout.story, layout.is_ours));
 }
 
 }  // namespace chainreel

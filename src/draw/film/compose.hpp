@@ -28,6 +28,7 @@ struct Composition {
   FilmSheet sheet;
   FilmView view;
   std::vector<std::string> left_out;  // layers that the page is too small for
+  std::vector<std::string> given;     // ... and those whose rows low panels take
   double held_text_scale = 0;  // that words have where plots and scene have no room beside those that are asked for; 0: as asked
 };
 
@@ -37,6 +38,9 @@ struct Composition {
 //
 // With layout `auto` a plot stands beside the scene, else below it, where the motion keeps kLeastKept of its size and no further
 // layer goes: the scene's only plot, or the story that it has (draw/film/story).
+// On narrow pages names of the legend that tell no scale go before the plot. The plot of a grid of panels stands in the cell that these would leave
+// empty, or in one of a grid in which they are larger by a tenth. Where words had to be enlarged, panels lower than two fifths of the page
+// take the rows of equation and torque_label above them.
 // In layout `compare` plots stand beside the panels of a motion that is at most half as wide as high, where these are no smaller for it.
 // Comparisons have theirs on pages that are narrow, and those that lie over one another on all, where it costs next to nothing; those
 // of methods, which look alike, where kLeastKeptOfMethods is kept.
@@ -46,6 +50,7 @@ struct Composition {
 inline constexpr double kLeastScene = 0.45;
 // A motion so narrow that it leaves half of a narrow page empty gives its plot more: kLeastKeptOfNarrow.
 inline constexpr double kLeastKept = 0.8, kLeastKeptOfPanels = 0.95, kLeastKeptOfMethods = 0.55, kLeastKeptOfNarrow = 0.6;
+inline constexpr double kLeastKeptStacked = 0.75;  // pages that have plots above one another have height to spare
 Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
                     const FilmClock& clock);
 

@@ -35,6 +35,10 @@ SheetText words_of(const Stage& stage, const Layers& layers) {
   return text;
 }
 
+bool tells_no_scale(const ScaleEntry& entry) {
+  return entry.mark == ScaleEntry::Mark::center_of_mass || entry.order > kAfterScales;
+}
+
 bool has_notes(const Stage& stage) {
   return !is_transparent(stage.page) &&
          std::any_of(stage.motions.begin(), stage.motions.end(),
@@ -208,7 +212,8 @@ TextLine abbreviated(const Fonts& fonts, const std::string& title, const TextSty
 
 FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& story, const PlotRoom& room_given) : plot_room(room_given) {
   const Scene& page = stage.page;
-  const SheetText text = words_of(stage, layers);
+  SheetText text = words_of(stage, layers);
+  if (plot_room.without_names) std::erase_if(text.scales, tells_no_scale);
   const double aspect = double(page.video.width) / page.video.height;
   sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
@@ -253,6 +258,12 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story) {
   }
   if (page.video.least_text > 0) shares.clear();  // each has a least height there
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale, 1.0 / page.video.height};
+  if (plot_room.columns > 0) {
+    const Rect cell = panel_cells(sheet.scene, int(stage.motions.size()) + 1, plot_room.columns, {}).back().scene;
+    const PlotAreas areas = plot_areas(cell, count, PlotPlace::right, 0, page.text_scale, 1, 0, shares);
+    for (std::size_t i = 0; i < areas.plots.size(); ++i) plots.emplace_back(std::move(data[i]), areas.plots[i], style);
+    return align_plots();
+  }
   const PlotAreas areas = plot_areas(sheet.scene, count, place,
                                      stage.is_comparison() ? kPlotOfComparison + height_around_frame(style) : 0, page.text_scale, plot_room.beside,
                                      std::max(least_plot(page), plot_room.each), shares,
@@ -262,7 +273,10 @@ void FilmSheet::lay_out_plots(const Stage& stage, const Story& story) {
   sheet.scene = areas.scene;
   for (std::size_t i = 0; i < areas.plots.size(); ++i)
     plots.emplace_back(std::move(data[i]), areas.plots[i], style);
-  if (place == PlotPlace::below) return;
+  if (place != PlotPlace::below) align_plots();
+}
+
+void FilmSheet::align_plots() {
   double x0 = 0, x1 = sheet.aspect;
   for (const PlotStrip& plot : plots) {
     x0 = std::max(x0, plot.frame().box.x0);

@@ -39,6 +39,7 @@ struct FilmSheet {
 
  private:
   void lay_out_plots(const Stage& stage, const Story& story);
+  void align_plots();  // those above one another
 };
 
 }  // namespace chainreel

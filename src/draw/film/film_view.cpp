@@ -89,8 +89,15 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, doub
   const int count = int(stage.motions.size());
   Rect area = sheet.sheet.scene;
   area.y0 += row_below;
+  const auto cells_beside_plot = [&] {
+    std::vector<PanelCell> all = panel_cells(area, count + 1, sheet.plot_room.columns, sheet.rows);
+    all.pop_back();
+    if (!is_large_enough(all.front().scene)) all.clear();
+    return all;
+  };
   const std::vector<PanelCell> cells =
-      stage.is_ghost()                  ? ghost_cells(area, sheet.rows, stage.motions)
+      sheet.plot_room.columns > 0       ? cells_beside_plot()
+      : stage.is_ghost()                ? ghost_cells(area, sheet.rows, stage.motions)
       : stage.page.layout == PageLayout::compare ? compared_cells(stage, sheet, area, box)
                                         : best_cells(area, count, sheet.rows, box, sheet.widest_title(stage), is_paper(stage.page), stage.page.video.panel_names > 0);
   if (cells.empty())

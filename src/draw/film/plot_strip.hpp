@@ -99,11 +99,14 @@ struct PlotAreas {
 // plot below the scene with its words, where the room allows.
 inline constexpr double kPlotsBeside = 0.38;
 // What a motion leaves to plots: that share, and a height in units of H for each that does not stand beside it, up to `most` of what
-// plots and scene share (0: as usual); and whether those of several panels stand beside these.
+// plots and scene share (0: as usual); and whether those of several panels stand beside these, or in the last cell of a grid that has so many
+// `columns`.
 struct PlotRoom {
   double beside = kPlotsBeside, each = 0;
   bool beside_panels = false;
   double most = 0;
+  int columns = 0;
+  bool without_names = false;  // of the legend, entries that tell no scale go
 };
 // `shares`: of the height that plots above one another share, one each; none: alike. `most`: of the page's height for plots that do not
 // stand beside the scene; 0: as usual.

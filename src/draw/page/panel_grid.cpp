@@ -10,11 +10,11 @@ constexpr double kFullPanel = 0.6, kSmallestMarks = 0.45;
 constexpr double kWorthOfFull = 1.5;   // a grid without an empty cell is taken up to that much smaller
 constexpr double kSmallestSide = 0.06;  // of a panel that shows anything
 
+}  // namespace
+
 bool is_large_enough(const Rect& scene) {
   return std::min(scene.width(), scene.height()) > kSmallestSide;
 }
-
-}  // namespace
 
 std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, const PanelRows& rows) {
   const int lines = (count + columns - 1) / columns;

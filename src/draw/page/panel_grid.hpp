@@ -29,6 +29,9 @@ std::vector<PanelCell> panel_cells(const Rect& area, int count, int columns, con
 std::vector<PanelCell> best_cells(const Rect& area, int count, const PanelRows& rows, const FitBox& box, double least_width = 0,
                                   bool keeps_width = false, bool is_full = false);
 
+// Whether a panel whose scene has this part of the page shows anything.
+bool is_large_enough(const Rect& scene);
+
 // Size of the marks of joints and ground in a panel this large, or in one of these: 1 for one that fills the page.
 double marks_in(const Rect& scene);
 double marks_in(const std::vector<PanelCell>& cells);

@@ -178,7 +178,7 @@ KeyText told_style() {
       "", {told_colors("light", "colours of the light theme, like \"#1A1A1A\""), told_colors("dark", "colours of the dark theme"),
            told("lines", KeyForm::number, "times the widths of outlines, curves, ellipses, trails and shafts of arrows").within({kThinnest, kThickest}),
            told_either("trail", {told("", KeyForm::number, "").within({kShortestTrail, kLongestTrail}), told_word("", kTrailWords, "")},
-                       "s that the end effector's trail goes back, fading; `all`: the whole way, which does not fade; 1 where left out"),
+                       "s that the end effector's trail goes back, fading, up to 1 no longer on the page than twice the chain; `all`: the whole way, which does not fade; 1 where left out"),
            told_record("fonts",
                        {told("label", KeyForm::text, "family of words"),
                         told("bold", KeyForm::text, "family of titles, in its bold face; left out: that of `label`"),
