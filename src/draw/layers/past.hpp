@@ -30,7 +30,7 @@ std::set<const StagedRun*> runs_on_rails(const Stage& stage);
 inline constexpr int kMostGhosts = 6;
 inline constexpr int kFilledGhosts = 3;  // those beyond are outlines only
 inline constexpr double kFaintestGhost = 0.10, kStrongestGhost = 0.35;
-inline constexpr double kGhostSeconds = 1.0;  // all of them together: what the trail covers, too
+inline constexpr double kGhostSeconds = 1.0;  // all of them together: what the trail of no fast end effector covers, too
 
 // Frames between two ghosts: a whole number of them, so that the spacing is the same everywhere.
 int ghost_spacing(FrameRate fps);
