@@ -107,6 +107,8 @@ struct EllipseStyle {
   bool signs = true;                 // infinity signs and lengths at ends that are not seen
   double lines = 1;                  // times the widths of the style guide
   std::vector<CutNumber> cut_numbers{};  // of the axes that a film has cut; those that are not named have their numbers
+  std::vector<std::string> names{};  // of the semi-axes in the notation of formulas, the longest first, where a plot has their curves
+  std::vector<double> lengths{};     // of these, in the unit of the reading
   bool stands = false;  // the picture stands still: what comes or goes where an axis is cut is there whole or not at all
   MarkLabels* labels = nullptr;      // takes the lengths, to be drawn with other words; absent: they are drawn
   int* unnamed = nullptr;  // of figures, which have room around: counts semi-axes that have no place for their number

@@ -69,7 +69,9 @@ class MassAlong {
     const Eigen::Vector3d tip = tip_position(panel.chain(), ws);
     if (has_body_shapes(panel)) style.hides = robot_hides(*panel.motion().shapes(), ws, panel.camera(), tip);
     style.outward = last_link(panel.motion().skeleton(), ws, panel.camera());
-    draw_mass_ellipse(picture, axes_at(panel.motion(), k), panel.tip().place(k), panel.camera().seen_at(tip),
+    const std::vector<MassAxis> axes = axes_at(panel.motion(), k);
+    if (has_plot_of_axes()) name_axes(style, axes);
+    draw_mass_ellipse(picture, axes, panel.tip().place(k), panel.camera().seen_at(tip),
                       style, panel.clip());
   }
 
@@ -100,6 +102,23 @@ class MassAlong {
   }
 
  private:
+  // Curves of these axes stand on the page: those that the scene names, or those that layout `auto` chose, whose page has a place for plots.
+  bool has_plot_of_axes() const {
+    const Scene& page = stage_->page;
+    if (stage_->is_comparison() || is_section_) return false;
+    if (page.plot.empty()) return page.layout == PageLayout::scene_right || page.layout == PageLayout::scene_below;
+    const auto quantity = to_string(reading_ == EllipseReading::energy ? PlotQuantity::energy_speed : PlotQuantity::effective_mass);
+    return std::ranges::any_of(page.plot, [&](const auto& entry) { return entry.value == quantity; });
+  }
+
+  // As the curves are named: from the longest on.
+  void name_axes(EllipseStyle& style, const std::vector<MassAxis>& axes) const {
+    const std::string symbol = reading_ == EllipseReading::energy ? "v_" : "Lambda_";
+    for (const MassAxis& axis : axes) style.lengths.push_back(semi_axis(axis, reading_).value_or(HUGE_VAL));
+    std::ranges::sort(style.lengths, std::ranges::greater{});
+    for (std::size_t i = 0; i < axes.size(); ++i) style.names.push_back(symbol + std::to_string(i + 1));
+  }
+
   // Which may hide some of the ellipsoid.
   bool has_body_shapes(const Panel& panel) const { return panel.motion().shapes() && body() == EllipseBody::solid; }
 

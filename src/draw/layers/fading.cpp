@@ -305,8 +305,10 @@ CutEnd cut_end(Point center, Point v, double length, const EllipseStyle& style) 
 }
 
 TextLine text_of_length(double length, double strength, const EllipseStyle& style, const std::string& bound = "") {
-  const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg";
-  return lay_out_text(*style.fonts, (bound.empty() ? format_digits(length, 3) : bound) + unit,
+  const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg", number = (bound.empty() ? format_digits(length, 3) : bound) + unit;
+  const auto place = std::size_t(std::ranges::find(style.lengths, length) - style.lengths.begin());
+  const std::string name = place < style.names.size() ? "$" + style.names[place] + "$" + (bound.empty() ? " = " : " ") : "";
+  return lay_out_words(*style.fonts, name + number,
                       {Face::label, scaled(size::kTick, style.text_scale), style.theme->ellipse.faded(strength),
                        Align::left});
 }
