@@ -24,6 +24,17 @@ Story of_all(const Stage& stage, PlotQuantity quantity) {
   return story;
 }
 
+// " [m]": of the coordinates that are shown.
+std::string unit_of_driven(const Chain& chain, const std::vector<bool>& is_driven) {
+  bool turns = false, slides = false;
+  for (const Body& body : chain.bodies) {
+    const Joint& joint = body.joint;
+    if ((joint.kind != JointKind::revolute && joint.kind != JointKind::prismatic) || !is_driven[std::size_t(joint.q_index)]) continue;
+    (joint.kind == JointKind::revolute ? turns : slides) = true;
+  }
+  return turns && slides ? " [rad, m]" : turns ? " [rad]" : " [m]";
+}
+
 // Of the coordinates those that springs drive; empty where there are no springs, or more than springs.
 std::vector<PlotCurves> sprung_coordinates(const Stage& stage, const StagedRun& motion) {
   std::vector<bool> is_driven(std::size_t(motion.chain().nq), false);
@@ -38,6 +49,8 @@ std::vector<PlotCurves> sprung_coordinates(const Stage& stage, const StagedRun& 
   std::vector<PlotCurve>& curves = plots.front().curves;
   for (std::size_t i = curves.size(); i-- > 0;)
     if (!is_driven[i]) curves.erase(curves.begin() + std::ptrdiff_t(i));
+  std::string& title = plots.front().title;
+  title = (curves.size() == 1 ? "$" + curves.front().name + "$" : title.substr(0, title.find(" ["))) + unit_of_driven(motion.chain(), is_driven);
   return plots;
 }
 

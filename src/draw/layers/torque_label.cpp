@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <string_view>
 
 #include "core/format.hpp"
 #include "draw/layers/layer.hpp"
@@ -239,6 +240,19 @@ std::string resistance_notation(const Chain& chain) {
 
 namespace {
 
+// With its unit behind it: in brackets, but numbers, and single products that end with a bracket of their own, as -80 (q_2 - 0.1). Of others
+// the last factor would be read with the unit.
+std::string with_unit(const std::string& entry, const std::string& unit) {
+  if (parse_number(entry)) return entry + unit;
+  int depth = 0;
+  bool is_product = entry.ends_with(')');
+  for (std::size_t i = 0; i < entry.size(); ++i) {
+    depth += entry[i] == '(' || entry[i] == '{' ? 1 : entry[i] == ')' || entry[i] == '}' ? -1 : 0;
+    if (depth == 0 && ((i > 0 && (entry[i] == '+' || entry[i] == '-')) || std::string_view("/<>=\",").find(entry[i]) != std::string_view::npos)) is_product = false;
+  }
+  return (is_product ? entry : "(" + entry + ")") + unit;
+}
+
 // "tau_1 = (8 - qd_1) N m" where all others are zero; "" where they are not, or it is no joint's alone.
 std::string only_entry(const Chain& chain, const std::vector<std::string>& entries) {
   const auto is_zero = [](const std::string& entry) { return parse_number(entry) == 0.0; };
@@ -248,7 +262,7 @@ std::string only_entry(const Chain& chain, const std::vector<std::string>& entri
     const Body& body = chain.bodies[b];
     if (body.joint.v_index != int(place) || (body.joint.kind != JointKind::revolute && body.joint.kind != JointKind::prismatic)) continue;
     const std::string& entry = entries[std::size_t(place)];
-    return "tau_" + std::to_string(place + 1) + " = " + (parse_number(entry) ? entry : "(" + entry + ")") + (body.joint.kind == JointKind::revolute ? " N m" : " N");
+    return "tau_" + std::to_string(place + 1) + " = " + with_unit(entry, body.joint.kind == JointKind::revolute ? " N m" : " N");
   }
   return "";
 }
@@ -278,7 +292,7 @@ std::vector<std::string> torque_notations(const Chain& chain, const std::vector<
     if (shown == entries.size() || shown <= 8)
       forms.push_back("tau = (" + list_of(entries, shown) + ")" + unit_of(chain));
   }
-  if (entries.size() == 1) forms.push_back("tau = (" + entries[0] + ")" + unit_of(chain));
+  if (entries.size() == 1) forms.push_back("tau = " + with_unit(entries[0], unit_of(chain)));
   if (!alone.empty()) forms.push_back(alone);
   forms.push_back("tau = tau(t, q, qd)");
   return forms;

@@ -93,6 +93,10 @@ TEST(TorqueLabel, WithoutEntriesSaysThatNothingActs) {
 TEST(TorqueLabel, OfOneJointNeedsNoBracketsAroundANumber) {
   EXPECT_EQ(label("p", {"9.81"}), "tau = 9.81 N");
   EXPECT_EQ(label("p", {"-k * q1"}), "tau = (-k * q1) N");
+  // A single product with a bracket at its end needs none around it.
+  EXPECT_EQ(label("p", {"-80 * (q1 - 0.1)"}), "tau = -80 * (q1 - 0.1) N");
+  EXPECT_EQ(label("p", {"5 * cos(2 * t)"}), "tau = 5 * cos(2 * t) N");
+  for (const std::string kept : {"8 - (q1)", "2 / (1 + t)", "(t) - (q1)"}) EXPECT_EQ(label("p", {kept}), "tau = (" + kept + ") N");
 }
 
 TEST(TorqueLabel, HasNoUnitWhereForcesAndTorquesMix) {
