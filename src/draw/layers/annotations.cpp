@@ -1,10 +1,12 @@
-// Words of `annotate:` with a line to what they speak of. They stand at one place of the page while that moves on.
+// Words of `annotate:` with a line to what they speak of, which stand at one place of the page while that moves on; and those that films have
+// by themselves (callouts).
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "draw/layers/callouts.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/page/wrapped_words.hpp"
 #include "draw/robot/view.hpp"
@@ -26,7 +28,7 @@ constexpr int kAnywhere = 5;  // columns, and rows, of places all over the panel
 
 class Annotations : public Layer {
  public:
-  explicit Annotations(const Stage& stage) : stage_(&stage) {
+  explicit Annotations(const Stage& stage) : stage_(&stage), callouts_(stage) {
     std::vector<RunEvents> panels;
     for (const StagedRun& motion : stage.motions) panels.push_back({&motion.scene().events, &motion.trajectory().events});
     for (std::size_t i = 0; i < stage.page.annotate.size(); ++i) {
@@ -41,12 +43,13 @@ class Annotations : public Layer {
   }
 
   UnderWords under_words() const override { return UnderWords::freely; }
-  bool has_words() const override { return !notes_.empty(); }
+  bool has_words() const override { return !notes_.empty() || !callouts_.empty(); }
 
   void draw(Picture&, const Shot& shot) const override {
     for (const Note& note : notes_)
       if (is_of_panel(note, shot.panel) && is_shown(note, stage_->times[std::size_t(shot.k)]))
         add_words(note, shot);
+    callouts_.draw(shot);
   }
 
  private:
@@ -197,6 +200,7 @@ class Annotations : public Layer {
   }
 
   const Stage* stage_;
+  Callouts callouts_;
   std::vector<Note> notes_;
 };
 

@@ -147,10 +147,12 @@ void draw_leader(Picture& picture, const Leader& leader, const Rect& box, Color 
 
 void draw_tie(Picture& picture, const Tie& tie, const Rect& box, Color background, double opacity, int clip) {
   const std::optional<TieLine> line = line_of(tie, box);
-  if (!line) return;
-  const auto& [from, to] = *line;
-  picture.add(Capsule{from, to, kTieWidth / 2 + kTieHalo, {background.faded(opacity), {}, 0}}, clip);
-  picture.add(Capsule{from, to, kTieWidth / 2, {tie.color.faded(opacity), {}, 0}}, clip);
+  const Color color = tie.color.faded(opacity), halo = background.faded(opacity);
+  if (line) {
+    picture.add(Capsule{line->from, line->to, kTieWidth / 2 + kTieHalo, {halo, {}, 0}}, clip);
+    picture.add(Capsule{line->from, line->to, kTieWidth / 2, {color, {}, 0}}, clip);
+  }
+  if (tie.dot) picture.add(Ellipse{tie.to, {kLeaderDot, 0}, {0, kLeaderDot}, {color, halo, kWordHalo}}, clip);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct Tie {
   Color color;
   std::optional<Point> other_end{};
   double shortest = 0.018;  // a shorter one is none
+  bool dot = false;  // at its end, as of a leader
   double cost = 0;  // of each H of its length, a second, to a plan of films (draw/page/word_plan)
 };
 

@@ -139,7 +139,8 @@ std::string Panel::event_note(int k, int events) const {
     so_far.push_back({run.events.t[i], scene().events[std::size_t(run.events.event[i])].title()});
   // Of poses that come again and again the last one is enough.
   const std::vector<double>& lost = motion_->change_points();
-  if (const auto next = std::ranges::upper_bound(lost, now); next != lost.begin()) so_far.push_back({next[-1], "constraints lose rank"});
+  if (const auto next = std::ranges::upper_bound(lost, now); next != lost.begin()) so_far.push_back({next[-1], kRankLost});
+  if (const std::optional<LimitEvent> limit = motion_->stopping_limit(); limit && run.end_time <= now + 1e-9) so_far.push_back({run.end_time, words_of_stop(*limit)});
   std::ranges::stable_sort(so_far, {}, &Happening::t);
   if (events == 0) return so_far.empty() ? "" : so_far.back().what;
   std::string text;

@@ -67,6 +67,16 @@ int StagedRun::curve_samples() const {
   return int(std::upper_bound(t.begin(), t.end(), last + (1 + kSameEnd) * frame) - t.begin());
 }
 
+std::string words_of_stop(const LimitEvent& limit) {
+  return (limit.quantity == "position" ? "" : limit.quantity + " ") + "limit of " + limit.joint + " reached";
+}
+
+std::optional<LimitEvent> StagedRun::stopping_limit() const {
+  const Trajectory& run = run_.trajectory;
+  if (run.status != RunStatus::stopped || run.ending_event >= 0 || run.limits.empty()) return {};
+  return run.limits.back();
+}
+
 bool StagedRun::is_wild() const {
   return !is_complete(run_.trajectory.status);
 }

@@ -52,6 +52,10 @@ struct Variant {
 // Variant i of `count`; in the layout `ghost` with a letter where there are several outlines.
 Variant variant_of(int i, int count, bool ghost, const Theme& theme);
 
+// What is said of such instants.
+inline constexpr char kRankLost[] = "constraints lose rank";
+std::string words_of_stop(const LimitEvent& limit);  // "limit of elbow reached"
+
 // What curves of a run show: its samples, and what lies between them where that was kept.
 inline const Trajectory& curve_run_of(const Trajectory& run) {
   return run.between ? *run.between : run;
@@ -87,7 +91,8 @@ class StagedRun {
   bool counts() const { return counts_; }
   bool is_wild() const;  // the run did not come to an end that it should have
   bool may_freeze() const { return freezes_ && is_wild(); }
-  bool may_have_notes() const { return may_freeze() || !run_.scene.events.empty() || !run_.change_points.empty(); }
+  std::optional<LimitEvent> stopping_limit() const;  // that ended the run, as `limit: stop` asks for
+  bool may_have_notes() const { return may_freeze() || !run_.scene.events.empty() || !run_.change_points.empty() || stopping_limit(); }
   double limit() const { return limit_; }  // m; places beyond it belong to a run that diverged
 
   // Rails reach as far as the counted samples use them.

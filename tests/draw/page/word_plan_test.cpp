@@ -213,7 +213,8 @@ TEST(WordPlan, LinesOfWordsKeepOffOtherWords) {
 TEST(WordPlan, WordsWhoseTiesCostStandNearAndGoWhileSomethingPasses) {
   for (const double cost : {0.0, 30.0}) {
     MarkWord word = word_at("tau", {{0.5, 0.5}, {0.8, 0.5}});
-    word.tie = Tie{{0.42, 0.5}, 0.05, {}, {}, 0.018, cost};
+    word.tie = Tie{{0.42, 0.5}, 0.05, {}, {}, 0.018};
+    word.tie->cost = cost;
     WordPlan plan(kPlanArea, kPlanFps);
     for (int k = 0; k < 200; ++k) plan.add({word}, {bar(k % 50 >= 20 && k % 50 < 32 ? 0.5 : 0.1)});
     int near = 0, far = 0;
