@@ -304,10 +304,11 @@ CutEnd cut_end(Point center, Point v, double length, const EllipseStyle& style) 
   return {d, way, std::min(strength, said->opacity), said->bound};
 }
 
-TextLine text_of_length(double length, double strength, const EllipseStyle& style, const std::string& bound = "") {
+// Where the axis is cut its number stands on it, between the lines of the curve, which a name would cross.
+TextLine text_of_length(double length, double strength, const EllipseStyle& style, const std::string& bound = "", bool is_cut = false) {
   const std::string unit = style.reading == EllipseReading::energy ? " m/s" : " kg", number = (bound.empty() ? format_digits(length, 3) : bound) + unit;
   const auto place = std::size_t(std::ranges::find(style.lengths, length) - style.lengths.begin());
-  const std::string name = place < style.names.size() ? "$" + style.names[place] + "$" + (bound.empty() ? " = " : " ") : "";
+  const std::string name = place < style.names.size() && !is_cut ? "$" + style.names[place] + "$ = " : "";
   return lay_out_words(*style.fonts, name + number,
                       {Face::label, scaled(size::kTick, style.text_scale), style.theme->ellipse.faded(strength),
                        Align::left});
@@ -330,7 +331,7 @@ Fade fade_before(const TextLine& text, double strength, Point d, Fade fade, bool
 
 // What moves with its axis needs no plan of words: it is there at every frame.
 void draw_at_cut(Picture& picture, double length, Point center, const CutEnd& end, const EllipseStyle& style, int clip) {
-  const TextLine text = text_of_length(length, end.strength, style, end.bound);
+  const TextLine text = text_of_length(length, end.strength, style, end.bound, true);
   const double half = half_along(text, end.d), nearest = std::max(style.hole, size::kEndEffector) + kSignAir + half;
   const Rect box = box_near(text, center + std::max(end.way - kCutHead - kSignAir - half, nearest) * end.d, style.scene);
   const Point anchor{box.x0 - text.box.x0, box.y0 - text.box.y0};
@@ -457,7 +458,7 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
 
 Fade fade_before_length(Point center, Point v, double length, const Fade& whole, const EllipseStyle& style) {
   if (const CutEnd end = cut_end(center, v, length, style); end.strength > 0)
-    return fade_before(text_of_length(length, end.strength, style, end.bound), end.strength, end.d, whole, true, kCutHead + kSignAir);
+    return fade_before(text_of_length(length, end.strength, style, end.bound, true), end.strength, end.d, whole, true, kCutHead + kSignAir);
   const double strength = strength_of_length(center, v, style);
   if (!(strength > 0) || has_one_place(style)) return whole;
   return fade_before(text_of_length(length, strength, style), strength, unit(v), whole);
