@@ -118,7 +118,7 @@ Fade fade_of(const Rect& scene, Point center, const Spread& spread, double most,
   const Rect room{scene.x0 - center.x, scene.y0 - center.y, scene.x1 - center.x, scene.y1 - center.y};
   // Before it gets there, so that a tip that just passes an edge is not cut flat.
   constexpr double kBefore = 0.03;
-  const auto stretch = [&](double reach, double way) { return std::clamp(per_excess * (reach - way + kBefore), 0.0, most); };
+  const auto stretch = [&](double reach, double way) { return std::clamp(per_excess * (reach - way) + kBefore, 0.0, most); };
   const auto& [xx, xy, yy] = spread;
   return {scene, stretch(farthest(xx, xy, yy, -room.y1, -room.y0), -room.x0),
           stretch(farthest(xx, xy, yy, room.y0, room.y1), room.x1),
