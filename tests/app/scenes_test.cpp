@@ -211,6 +211,22 @@ TEST(Plots, OfMethodsThatErrShowWhatIsExact) {
   EXPECT_THAT(words_of("euler_gains_energy", {}), testing::Not(testing::HasSubstr("exact"))) << "the Taylor series is";
 }
 
+// A plot of one driven coordinate has its name; of two that of all. Numbers at the axes of an ellipse say which curve they are where the page has the
+// plot of them, and are bare where it has not.
+TEST(Plots, AndWhatTheyTellOfHaveOneName) {
+  const auto words_of = [](const std::string& name, const std::vector<std::string>& more, bool is_title) {
+    const PreparedFilm film = load_film("assets/scenes/" + name + ".yaml", more);
+    const Runs runs(film);
+    const Fonts fonts;
+    const Film pictures = runs.pictures(runs.clock().frame_count(), fonts);
+    return test::words_of(is_title ? pictures.static_layer() : pictures.frame(0));
+  };
+  EXPECT_THAT(words_of("pp_spring", {}, true), testing::HasSubstr("2 [m]"));
+  EXPECT_THAT(words_of("pp_spring", {"torque=[\"-50 * q1\", \"-100 * y_G\"]"}, true), testing::Not(testing::HasSubstr("2 [m]")));
+  EXPECT_THAT(words_of("rr_ellipse", {}, false), testing::HasSubstr("= 1.00 kg"));
+  EXPECT_THAT(words_of("rr_ellipse", {"layout=scene"}, false), testing::AllOf(testing::HasSubstr("1.00 kg"), testing::Not(testing::HasSubstr("= 1.00 kg"))));
+}
+
 // A torque beyond its scale has a number beside its arc, or where arcs have no names, as those of seven joints, one beside the scale.
 TEST(Legend, TellsThePeaksThatNoNumberStandsBeside) {
   const auto words_of = [](const std::string& model, const std::string& torque, const char* start = "start={q: [0, 0, 0, 0, 0, 0, 0]}") {

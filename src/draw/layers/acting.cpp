@@ -107,6 +107,7 @@ class VectorLayer : public Layer {
     const Asides& asides = asides_of(panel, shot.k);
     const Peaks& peaks = peaks_of(panel, shot.k);
     Names names;
+    const std::size_t before = shot.labels.words().size();
     for (WorldVector& vector : vectors_at_(panel.motion(), shot.ws, shot.k)) {
       const VectorName name = names.next(vector);
       vector.size = arcs;
@@ -116,6 +117,7 @@ class VectorLayer : public Layer {
       if (vector.kind == VectorKind::torque && link > 0 && link < kLinkOfWords * pen_.em(panel.marks())) vector.label.clear();
       pen_.draw(picture, vector, panel.camera(), panel.marks(), panel.clip(), shot.labels);
     }
+    if (before < shot.labels.words().size()) shot.labels.close_nearer_to_others(before);
   }
 
  private:

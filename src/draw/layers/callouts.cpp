@@ -108,6 +108,7 @@ std::vector<Callout> callouts_of(const Stage& stage, const StagedRun& motion) {
       const int event = run.events.event[std::size_t(hit)];
       const EventEntry& entry = motion.scene().events[std::size_t(event)];
       if (!seen.insert(event).second || entry.name.empty() || is_annotated(entry.name)) continue;
+      if (entry.kind == EventKind::fall) continue;  // its level has its words, and where a run ends torques need the room
       const EventSet& events = *motion.simulation()->events;
       const double t = run.events.t[std::size_t(hit)];
       add(t, entry.name, spot_of(motion, events, events.list[std::size_t(event)], pose_when(t)));

@@ -10,7 +10,7 @@
 
 namespace chainreel {
 
-inline constexpr double kBeforeCallout = 0.1, kAfterCallout = 1;  // s of the film, about its instant
+inline constexpr double kBeforeCallout = 0.1, kAfterCallout = 0.6;  // s of the film, about its instant
 
 struct Callout {
   double at = 0;  // s of the motion

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "draw/layers/callouts.hpp"
 #include "draw/layers/layer.hpp"
 #include "draw/page/wrapped_words.hpp"
 #include "draw/robot/joints.hpp"
@@ -19,7 +18,6 @@ constexpr double kBeyondFrame = 0.04;    // ... that the line goes on beyond the
 constexpr double kLevelRing = 0.0085, kLevelRim = 0.0035;  // ... of the frame: radius, and the line around it
 constexpr double kLevelGap = 0.012;      // ... from the line to its words
 constexpr double kWrapped = 0.6;         // of the width of its words, which a level has room for in any case
-constexpr double kBetweenBoth = 0.05;  // s of the film, from these words to the callout, which is another word
 constexpr double kUpright = 1e-9;        // an axis of the world is up to rounding
 
 // A height that a frame falls below.
@@ -53,7 +51,7 @@ std::optional<FallLevel> level_of(const Chain& chain, const EventSet& events, co
 
 class FallLevelLayer : public Layer {
  public:
-  explicit FallLevelLayer(const Stage& stage) : stage_(&stage), theme_(&stage.theme) {
+  explicit FallLevelLayer(const Stage& stage) : theme_(&stage.theme) {
     for (const StagedRun& motion : stage.motions) {
       if (!is_of(motion) || !motion.simulation() || !motion.simulation()->events) continue;
       const EventSet& events = *motion.simulation()->events;
@@ -121,12 +119,12 @@ class FallLevelLayer : public Layer {
     TextLine words, wrapped;  // where there is no room for one line
   };
 
-  // From the instant on the note below the scene says the name, and a callout from a little before it.
-  bool is_noted(const Panel& panel, const FallLevel& level, int k) const {
+  // From the instant on the note below the scene says the name.
+  static bool is_noted(const Panel& panel, const FallLevel& level, int k) {
     const Trajectory& run = panel.motion().trajectory();
     const auto place = std::size_t(level.event - panel.motion().simulation()->events->list.data());
     for (std::size_t hit = 0; hit < run.events.t.size(); ++hit)
-      if (std::size_t(run.events.event[hit]) == place && (k >= run.size() || stage_->clock.film_time(run.events.t[hit]) <= stage_->clock.film_time(run.t[std::size_t(k)]) + kBeforeCallout + kBetweenBoth)) return true;
+      if (std::size_t(run.events.event[hit]) == place && (k >= run.size() || run.events.t[hit] <= run.t[std::size_t(k)])) return true;
     return false;
   }
 
@@ -151,7 +149,6 @@ class FallLevelLayer : public Layer {
     return lay_out_within(stage.fonts, event.name, style, share * lay_out_words(stage.fonts, event.name, style).advance);
   }
 
-  const Stage* stage_;
   const Theme* theme_;
   std::map<const StagedRun*, Shown> runs_;
 };

@@ -9,9 +9,8 @@
 namespace chainreel {
 namespace {
 
-constexpr double kPeakStays = 0.2;     // s after what is cut, in which the number goes
-constexpr double kSamePassage = 0.6;         // s between two that are told as one
-constexpr double kStillActs = 0.1;  // of what is cut: below this a number stands only as long as it takes to be read
+constexpr double kPeakStays = 0.2;    // s after what is cut, in which the number goes
+constexpr double kSamePassage = 0.6;  // s between two that are told as one
 
 // Frames [begin, end) at which a number stands.
 struct NumberedPassage {
@@ -39,18 +38,6 @@ std::vector<NumberedPassage> cut_passages(const std::vector<double>& values, dou
   return passages;
 }
 
-// Goes on behind its end for as long as it stays, until `last`, but for what is another sense or next to nothing: unless what is left would be
-// too short to be read. Never before its beginning: beside an arrow that has not got there a number would be read as its.
-void lengthen(NumberedPassage& passage, const std::vector<double>& values, double cut, int last, int stays, int shortest) {
-  const auto acts = [&](int k) {
-    const double value = values[std::size_t(k)];
-    return in_one_sense(value, passage.value) && std::abs(value) > kStillActs * cut;
-  };
-  const int end = std::min(last, passage.end + stays);
-  while (passage.end < end && acts(passage.end)) ++passage.end;
-  passage.end = std::max(passage.end, std::min(last, passage.begin + shortest));
-}
-
 bool is_said_alike(const NumberedPassage& passage, const std::vector<double>& values) {
   const std::string said = format_significant(passage.value, 2);
   return std::all_of(values.begin() + passage.begin, values.begin() + passage.end, [&](double value) { return format_significant(value, 2) == said; });
@@ -60,12 +47,15 @@ bool is_said_alike(const NumberedPassage& passage, const std::vector<double>& va
 
 std::vector<std::optional<Peak>> peaks_along(const std::vector<double>& values, double cut, double fps) {
   const int count = int(values.size());
-  const int stays = int(std::lround(kPeakStays * fps)), shortest = std::min(count, int(std::lround(kShortestStay * fps)));
+  const int shortest = std::min(count, int(std::lround(kShortestStay * fps)));
   std::vector<std::optional<Peak>> peaks(values.size());
   std::vector<NumberedPassage> passages = cut_passages(values, cut, int(std::lround(kSamePassage * fps)));
   for (std::size_t i = 0; i < passages.size(); ++i) {
     NumberedPassage& passage = passages[i];
-    lengthen(passage, values, cut, i + 1 < passages.size() ? passages[i + 1].begin : count, stays, shortest);
+    // Beside an arrow that is whole a number would be read as its: it stays behind for a blink, or as long as it takes to be read, and never stands before.
+    const int last = i + 1 < passages.size() ? passages[i + 1].begin : count, stays = int(std::lround(kPeakStays * fps));
+    for (int k = 0; k < stays && passage.end < last && in_one_sense(values[std::size_t(passage.end)], passage.value); ++k) ++passage.end;
+    passage.end = std::max(passage.end, std::min(last, passage.begin + shortest));
     if (passage.end - passage.begin < shortest && passage.end < count) continue;  // the film's last picture stays
     const Peak peak{passage.value, is_said_alike(passage, values)};
     std::fill(peaks.begin() + passage.begin, peaks.begin() + passage.end, peak);

@@ -1,5 +1,5 @@
 // Numbers of vectors that are longer than their scale has room for. A number that runs cannot be read, and one that is there for an
-// instant neither: for as long as such a passage lasts, and for a blink after it, one number stands, that of its peak.
+// instant neither: for as long as such a passage lasts, and a blink behind, one number stands, that of its peak.
 #pragma once
 
 #include <optional>

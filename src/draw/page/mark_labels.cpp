@@ -198,6 +198,22 @@ void MarkLabels::add(const std::string& name, TextLine line, const Rect& box, st
   words_.back().anchor = anchor;
 }
 
+void MarkLabels::close_nearer_to_others(std::size_t from) {
+  constexpr double kApart = 0.05, kNearer = 0.8;  // units of H between what is told apart; of the way to its own
+  for (std::size_t i = from; i < words_.size(); ++i) {
+    MarkWord& word = words_[i];
+    if (!word.anchor) continue;
+    word.closed.resize(word.places.size(), false);
+    for (std::size_t j = from; j < words_.size(); ++j) {
+      if (j == i || !words_[j].anchor || norm(*words_[j].anchor - *word.anchor) < kApart) continue;
+      for (std::size_t p = 0; p < word.places.size(); ++p) {
+        const auto way = [&](Point to) { return norm(nearest_in(word.places[p], to) - to); };
+        if (way(*words_[j].anchor) < kNearer * way(*word.anchor)) word.closed[p] = true;
+      }
+    }
+  }
+}
+
 void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int clip, double farthest) const {
   std::vector<StandingWord> standing(plan_.begin(), plan_.end());
   for (std::size_t i = 0; i < std::min(chosen_.size(), words_.size()); ++i) standing.push_back(standing_at(words_[i], chosen_[i], area_));
@@ -214,8 +230,10 @@ void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int 
     TextLine line = words_[i].shape_for(box);
     fade(line, opacity);
     const Point anchor{box.x0 - line.box.x0, box.y0 - line.box.y0};
-    if (words_[i].leader) draw_leader(picture, *words_[i].leader, box, background, opacity, clip);
-    if (words_[i].tie) draw_tie(picture, *words_[i].tie, box, background, opacity, clip);
+    constexpr double kSeen = 1e-3;  // units of H: pictures of a sheet have words that nobody sees, and no lines to them
+    const bool is_seen = box.height() > kSeen;
+    if (words_[i].leader && is_seen) draw_leader(picture, *words_[i].leader, box, background, opacity, clip);
+    if (words_[i].tie && is_seen) draw_tie(picture, *words_[i].tie, box, background, opacity, clip);
     draw_halo(picture, line, anchor, background.faded(opacity), kWordHalo, clip);
     draw_text(picture, line, anchor, clip);
   }

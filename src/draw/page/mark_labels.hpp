@@ -90,6 +90,8 @@ class MarkLabels {
   void add(MarkWord word);
   // `box`: where the ink of the line is wished; places around it will do.
   void add(const std::string& name, TextLine line, const Rect& box, std::optional<Point> anchor = {});
+  // Of the words from that one on: a place that is nearer to what another of them names would be read as that one's.
+  void close_nearer_to_others(std::size_t from);
   const std::vector<MarkWord>& words() const& { return words_; }
   std::vector<MarkWord> words() && { return std::move(words_); }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "draw/shapes.hpp"
+#include "support/fonts.hpp"
 
 namespace chainreel {
 namespace {
@@ -90,6 +91,24 @@ TEST(MarkLabels, MoveLittleWhenTheirMarksMoveLittle) {
     before = now;
   }
   EXPECT_LT(largest, 0.025);
+}
+
+// Pictures of a sheet have words too small for anybody to see: a line to one led from nothing.
+TEST(MarkLabels, NoLineLeadsToAWordThatNobodySees) {
+  const auto lines = [](double size) {
+    const TextLine line = lay_out_text(fonts(), "f", {Face::label, size, light_theme().ink, Align::left});
+    const Rect at{0.2, 0.2, 0.2 + line.box.width(), 0.2 + line.box.height()};
+    const std::vector<StandingWord> plan{{at, 1, {}}};
+    MarkLabels labels(plan);
+    MarkWord word{"force", line, {at}};
+    word.tie = Tie{{0.6, 0.6}, 0.01, light_theme().ink, {}, 0.02};
+    labels.add(std::move(word));
+    Picture picture;
+    labels.draw(picture, kLabelArea, light_theme().background, -1, kFarthest);
+    return test::all_of<Capsule>(picture).size();
+  };
+  EXPECT_EQ(lines(1e-4), 0u);
+  EXPECT_GT(lines(0.03), 0u) << "negative control";
 }
 
 }  // namespace
