@@ -105,8 +105,10 @@ class MassAlong {
   // Curves of these axes stand on the page: those that the scene names, or those that layout `auto` chose, whose page has a place for plots.
   bool has_plot_of_axes() const {
     const Scene& page = stage_->page;
-    constexpr double kRoomForNames = 0.016;  // of the page's width, of an em: on smaller pages numbers have no room for names
-    if (stage_->is_comparison() || is_section_ || scaled(size::kTick, page.text_scale) > kRoomForNames * page.video.width / page.video.height) return false;
+    // Of the page's width, of an em: on smaller pages numbers have no room for names. And px, of an em, below which their indices are too faint.
+    constexpr double kRoomForNames = 0.016, kIndicesSeen = 20;
+    const double em = scaled(size::kTick, page.text_scale);
+    if (stage_->is_comparison() || is_section_ || em > kRoomForNames * page.video.width / page.video.height || em * page.video.height < kIndicesSeen) return false;
     if (page.plot.empty()) return page.layout == PageLayout::scene_right || page.layout == PageLayout::scene_below;
     const auto quantity = to_string(reading_ == EllipseReading::energy ? PlotQuantity::energy_speed : PlotQuantity::effective_mass);
     return std::ranges::any_of(page.plot, [&](const auto& entry) { return entry.value == quantity; });
