@@ -72,8 +72,8 @@ class StretchReader {
     if (entry.from < 0)
       return complain("must not lie before 0 s; seconds before an event go with `event: NAME`", "from");
     if (entry.from < scene.duration) return true;
-    if (cuts_short_) is_beyond_ = true;
-    if (cuts_short_) return false;
+    is_beyond_ = cuts_short_;
+    if (is_beyond_) return false;
     return complain("lies at or behind the end of the motion, " + format_shortest(scene.duration) + " s",
                     "from");
   }
