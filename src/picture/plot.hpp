@@ -82,6 +82,9 @@ double title_above_frame(const PlotStyle& style);
 // What numbers below a frame without a title of its horizontal axis, and the title above it, take of its height.
 double height_around_frame(const PlotStyle& style);
 
+// Where the numbers below a frame end, and their base line is.
+Point end_of_numbers(const PlotFrame& frame, const PlotStyle& style);
+
 // The frame inside `area` that leaves room for tick labels and axis titles.
 PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const PlotStyle& style);
 

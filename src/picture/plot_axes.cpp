@@ -261,6 +261,11 @@ double tick_row(const PlotFrame& f, const PlotStyle& style) {
          kCapHeight * style.text(size::kTick) * (1 + kSuperscriptUp) / 2;
 }
 
+// Half of the last number hangs over the end of the axis.
+double beyond_end(const Axis& x, const PlotStyle& style) {
+  return (x.last_unit.empty() ? widest_label(ticks_of(x, kMostLog), style) : lay_out_tick(last_tick(x), style).advance) / 2;
+}
+
 void draw_x_ticks(Picture& picture, const PlotFrame& f, const std::vector<Tick>& ticks,
                   const PlotStyle& style) {
   const double middle = tick_row(f, style);
@@ -339,9 +344,12 @@ PlotFrame lay_out_plot(const Rect& area, const Axis& x, const Axis& y, const Plo
   if (!x.title.empty()) box.y0 += label_to_title(style) + title;
   box.y1 -= y.title.empty() ? tick / 2 : title + title_above_frame(style);
   box.x0 += size::kPlotTick + kTickToLabel + widest_label(y_ticks(y, box.height(), style), style);
-  // Half of the last number hangs over the end of the axis.
-  box.x1 -= (x.last_unit.empty() ? widest_label(ticks_of(x, kMostLog), style) : lay_out_tick(last_tick(x), style).advance) / 2;
+  box.x1 -= beyond_end(x, style);
   return frame;
+}
+
+Point end_of_numbers(const PlotFrame& frame, const PlotStyle& style) {
+  return {frame.box.x1 + beyond_end(frame.x, style), tick_row(frame, style) - kCapHeight * style.text(size::kTick) / 2};
 }
 
 void draw_axes(Picture& picture, const PlotFrame& frame, const PlotStyle& style) {
@@ -382,10 +390,6 @@ constexpr std::array<std::uint32_t, kCurveLooks> kOnDark = {0x56B4E9, 0xE69F00, 
                                                             0x8F9BFF, 0xC4FA58, 0xFF9DB8, 0x4FD8E8,
                                                             0xC8A2F5, 0xD2A679, 0xF2F2F2, 0xA9B0BA};
 
-bool is_dark(Color c) {
-  return c.r + c.g + c.b < 3 * 128;
-}
-
 }  // namespace
 
 Color variant_color(const Theme& theme, int i, int count) {
@@ -395,7 +399,7 @@ Color variant_color(const Theme& theme, int i, int count) {
 
 CurveStyle curve_style(int index, const Theme& theme, double text_scale) {
   const int look = index % kCurveLooks, round = index / kCurveLooks;
-  const auto& colors = is_dark(theme.background) ? kOnDark : kOnLight;
+  const auto& colors = is_dark(theme) ? kOnDark : kOnLight;
   CurveStyle style;
   style.color = color_of(colors[std::size_t(look)]);
   style.marker = Marker(1 + (look + 5 * round) % kCurveLooks);

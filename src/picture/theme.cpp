@@ -59,6 +59,11 @@ const Theme& dark_theme() {
   return theme;
 }
 
+bool is_dark(const Theme& theme) {
+  const Color& ground = theme.background;
+  return ground.r + ground.g + ground.b < 3 * 128;
+}
+
 const Theme& theme_named(std::string_view name) {
   return name == "dark" ? dark_theme() : light_theme();
 }

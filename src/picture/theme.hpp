@@ -23,6 +23,8 @@ struct Theme {
   friend bool operator==(const Theme&, const Theme&) = default;
 };
 
+bool is_dark(const Theme& theme);  // its background
+
 // Of one of `count` runs that are compared.
 Color variant_color(const Theme& theme, int i, int count);
 

@@ -81,6 +81,11 @@ inline double per_unit_of_bar(const Picture& page, const Theme& theme = light_th
   return length / worth;
 }
 
+// The outline of an effective mass on the light page.
+inline bool is_mass_ellipse(const Ellipse& e) {
+  return e.paint.stroke == light_theme().ellipse;
+}
+
 // No coordinate or size in the picture is NaN or infinite.
 inline bool is_finite(Point p) {
   return std::isfinite(p.x) && std::isfinite(p.y);

@@ -35,14 +35,13 @@ constexpr double kSmallerAxis = 0.14, kLargerAxis = 0.24;
 constexpr double kNearlyInfinite = 32;  // times the median
 
 // The ground that a robot seen obliquely stands on, with its shadow.
-void draw_below(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, bool is_seen_obliquely, const Rect& scene, int clip) {
-  if (!is_seen_obliquely) return;
+void draw_below(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const CameraEntry& wanted, const Rect& scene, int clip) {
   MotionBox places(up_of(drawing.chain));
   extend(places, drawing.chain, drawing.skeleton, drawing.shapes, ws, std::numeric_limits<double>::infinity());
-  const auto ground = ground_under(places, drawing.camera);
+  const auto ground = ground_of_poses(drawing.chain, places, drawing.camera, wanted);
   if (!ground) return;
   draw_ground_plane(picture, *ground, drawing.camera, drawing.look.theme->rule, scene, clip);
-  draw_shadow(picture, drawing, ws, scene, clip);
+  draw_shadow(picture, drawing, ws, ground->height, scene, clip);
 }
 
 // How many semi-axes have no number, for want of room.
@@ -62,7 +61,7 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
   const ChainDrawing drawing{panels.chain, panels.skeleton, camera,
                              narrowed(look_of(panels.skeleton, camera, theme, 1, panels.marks), panels.widest_link),
                              panels.options.shapes.get()};
-  draw_below(picture, drawing, ws, is_oblique(panels.chain, panels.options.camera), scene, clip);
+  draw_below(picture, drawing, ws, panels.options.camera, scene, clip);
   const std::size_t framed = picture.items.size();
   const Point tip = camera.project(tip_position(panels.chain, ws));
   EllipseStyle style{&theme, &panels.fonts,         panels.options.text_scale, panels.scale.per_unit(),

@@ -98,7 +98,7 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   picture.aspect = sheet.aspect;
   picture.background = options.theme->background;
   picture.clips = {sheet.scene};
-  const auto ground = is_oblique(chain, options.camera) ? ground_under(stage.motion, camera) : std::nullopt;
+  const auto ground = ground_of_poses(chain, stage.motion, camera, options.camera);
   if (ground)
     draw_ground_plane(picture, *ground, camera, options.theme->rule, sheet.scene, kSceneClip);
   const auto drawing = [&](double strength) {
@@ -109,7 +109,7 @@ Picture draw_pose_figure(const Chain& chain, const std::vector<std::vector<doubl
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double strength = i + 1 < poses.size() ? kOnionSkin : 1;
     stage.stand(poses[i]);
-    if (ground) draw_shadow(picture, drawing(strength), stage.ws, sheet.scene, kSceneClip);
+    if (ground) draw_shadow(picture, drawing(strength), stage.ws, ground->height, sheet.scene, kSceneClip);
     draw_rails(picture, drawing(strength), stage.ws, kSceneClip);
     draw_links(picture, drawing(strength), stage.ws, kSceneClip);
     if (options.shapes || chain.end_effector < 0) continue;

@@ -208,6 +208,32 @@ TextLine abbreviated(const Fonts& fonts, const std::string& title, const TextSty
   return {};
 }
 
+// What is plotted: what the page names, else the story.
+std::vector<StripData> data_of_plots(const Stage& stage, const Story& story, bool has_panel_titles) {
+  const std::size_t count = story.empty() ? stage.page.plot.size() : story.front().size();
+  std::vector<StripData> data;
+  if (count == 0) return data;
+  std::vector<StripRun> runs;
+  double end = stage.times.back();
+  for (std::size_t i = 0; i < stage.motions.size(); ++i) {
+    const StagedRun& motion = stage.motions[i];
+    runs.push_back(strip_run(stage.page, motion, story.empty() ? std::vector<PlotCurves>() : story[i]));
+    runs.back().is_named_by_colour = has_panel_titles && motion.variant().has_value();
+    if (const int samples = motion.curve_samples(); samples > 0) end = std::max(end, motion.curve_run().t[std::size_t(samples) - 1]);
+  }
+  const std::optional<StripRun> exact = story.empty() ? exact_run(stage) : std::nullopt;
+  for (std::size_t i = 0; i < count; ++i) {
+    data.push_back(strip_data(runs, i, end, stage.theme));
+    if (exact) add_exact(data.back(), *exact, i, stage.theme);
+  }
+  return data;
+}
+
+bool has_time_alone_below(const SheetText& text) {
+  return !text.longest_time.empty() && !(text.beside_time > 0) && text.bar.empty() && text.legend.empty() && text.scales.empty() &&
+         !(text.logo && !is_at_top(text.logo->corner));
+}
+
 }  // namespace
 
 FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& story, const PlotRoom& room_given) : plot_room(room_given) {
@@ -215,9 +241,16 @@ FilmSheet::FilmSheet(const Stage& stage, const Layers& layers, const Story& stor
   SheetText text = words_of(stage, layers);
   if (plot_room.without_names) std::erase_if(text.scales, tells_no_scale);
   const double aspect = double(page.video.width) / page.video.height;
-  sheet = lay_out_sheet(text, aspect, page.text_scale, stage.theme, stage.fonts);
   has_panel_titles = text.with_panel_titles && stage.has_cells();
-  if (!(page.plot.empty() && story.empty()) && !is_transparent(page)) lay_out_plots(stage, story);
+  const std::vector<StripData> data = is_transparent(page) ? std::vector<StripData>() : data_of_plots(stage, story, has_panel_titles);
+  const auto lay_out = [&](const SheetText& words) {
+    sheet = lay_out_sheet(words, aspect, page.text_scale, stage.theme, stage.fonts);
+    if (!data.empty()) lay_out_plots(stage, data);
+  };
+  SheetText without_time = text;
+  without_time.longest_time.clear();
+  if (!data.empty() && has_time_alone_below(text)) lay_out(without_time);
+  if (!put_time_beside_numbers(stage, text.longest_time)) lay_out(text);
   if (has_panel_titles) rows.title = page.video.panel_names > 0 ? row_of_names(stage, sheet.scene) : kTitleRow * full_title_size(page);
   if (text.with_panel_titles && stage.is_ghost()) {
     key.emplace(stage, sheet.scene.width());
@@ -233,30 +266,17 @@ double least_plot(const Scene& page) {
 
 // One plot below the scene, more beside it, unless the layout says otherwise; below several panels, or beside those of a narrow motion. What the scene
 // did not ask for stands beside runs that lie over one another.
-void FilmSheet::lay_out_plots(const Stage& stage, const Story& story) {
+void FilmSheet::lay_out_plots(const Stage& stage, std::vector<StripData> data) {
+  plots.clear();
   const Scene& page = stage.page;
-  std::vector<StripRun> runs;
-  for (std::size_t i = 0; i < stage.motions.size(); ++i) {
-    runs.push_back(strip_run(page, stage.motions[i], story.empty() ? std::vector<PlotCurves>() : story[i]));
-    runs.back().is_named_by_colour = has_panel_titles && stage.motions[i].variant().has_value();
-  }
-  const int count = int(story.empty() ? page.plot.size() : story.front().size());
-  const bool right = stage.is_ghost()        ? !story.empty()
+  const int count = int(data.size());
+  const bool right = stage.is_ghost()        ? page.plot.empty()
                      : stage.is_comparison() ? plot_room.beside_panels
                                              : page.layout != PageLayout::scene_below && (count > 1 || page.layout == PageLayout::scene_right);
   const PlotPlace place = is_narrow(page) ? PlotPlace::stacked : right ? PlotPlace::right : PlotPlace::below;
-  double end = stage.times.back();
-  for (const StagedRun& motion : stage.motions)
-    if (const int samples = motion.curve_samples(); samples > 0) end = std::max(end, motion.curve_run().t[std::size_t(samples) - 1]);
-  std::vector<StripData> data;
   std::vector<double> shares;
-  const std::optional<StripRun> exact = story.empty() ? exact_run(stage) : std::nullopt;
-  for (int i = 0; i < count; ++i) {
-    data.push_back(strip_data(runs, std::size_t(i), end, stage.theme));
-    if (exact) add_exact(data.back(), *exact, std::size_t(i), stage.theme);
-    shares.push_back(share_of_height(data.back()));
-  }
-  if (page.video.least_text > 0) shares.clear();  // each has a least height there
+  if (!(page.video.least_text > 0))  // where each has a least height
+    for (const StripData& one : data) shares.push_back(share_of_height(one));
   const PlotStyle style{&stage.fonts, &stage.theme, page.text_scale, 1.0 / page.video.height};
   if (plot_room.columns > 0) {
     const Rect cell = panel_cells(sheet.scene, int(stage.motions.size()) + 1, plot_room.columns, {}).back().scene;
@@ -283,6 +303,19 @@ void FilmSheet::align_plots() {
     x1 = std::min(x1, plot.frame().box.x1);
   }
   for (PlotStrip& plot : plots) plot.narrow_to(x0, x1);
+}
+
+// A row of its own would take from panels what stands empty beside the numbers of a plot as wide as the page.
+bool FilmSheet::put_time_beside_numbers(const Stage& stage, const std::string& longest_time) {
+  constexpr double kMostOfFrame = 0.06;  // that it takes of the plot's width
+  if (plots.empty() || has_plots_beside || plot_room.columns > 0 || (plots.size() > 1 && !has_plots_stacked)) return false;
+  const double em = scaled(size::kAxis, stage.page.text_scale), width = lay_out_text(stage.fonts, longest_time, {Face::label, em}).advance;
+  const Point numbers = plots.back().end_of_numbers();
+  const double taken = std::max(0.0, numbers.x + em - (sheet.scene.x1 - width));
+  if (taken > kMostOfFrame * plots.back().frame().box.width()) return false;
+  for (PlotStrip& plot : plots) plot.narrow_to(plot.frame().box.x0, plot.frame().box.x1 - taken);
+  sheet.time_anchor = sheet.time_left = {sheet.scene.x1, numbers.y};
+  return true;
 }
 
 double FilmSheet::widest_title(const Stage& stage) const {

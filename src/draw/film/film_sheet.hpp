@@ -38,7 +38,8 @@ struct FilmSheet {
   std::vector<PlacedText> panel_titles(const Stage& stage, const std::vector<PanelCell>& cells) const;
 
  private:
-  void lay_out_plots(const Stage& stage, const Story& story);
+  void lay_out_plots(const Stage& stage, std::vector<StripData> data);
+  bool put_time_beside_numbers(const Stage& stage, const std::string& longest_time);
   void align_plots();  // those above one another
 };
 

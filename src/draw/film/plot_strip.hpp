@@ -54,6 +54,7 @@ class PlotStrip {
   void draw_frame(Picture& picture, double t) const;
   const PlotFrame& frame() const { return frame_; }
   const Rect& area() const { return area_; }  // with its words
+  Point end_of_numbers() const { return chainreel::end_of_numbers(frame_, style_); }
   // Plots above one another begin and end at the same places.
   void narrow_to(double x0, double x1) { frame_.box.x0 = x0, frame_.box.x1 = x1; }
 

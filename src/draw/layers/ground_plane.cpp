@@ -30,15 +30,29 @@ std::array<Vector3d, 2> along(const Vector3d& up) {
 
 }  // namespace
 
-std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& camera) {
+namespace {
+
+std::optional<GroundPlane> ground_at(double height, const MotionBox& motion, const Camera& camera) {
   if (motion.empty() || camera.toward_viewer.dot(motion.up()) < 0) return std::nullopt;
-  if (!(std::abs(motion.lowest()) <= kTouches * motion.size())) return std::nullopt;
+  if (!(std::abs(motion.lowest() - height) <= kTouches * motion.size())) return std::nullopt;
   GroundPlane ground;
   ground.up = motion.up();
-  ground.middle = motion.middle() - ground.up.dot(motion.middle()) * ground.up;
+  ground.height = height;
+  ground.middle = motion.middle() + (height - ground.up.dot(motion.middle())) * ground.up;
   ground.radius = (1 + kGroundBeyond) * std::max(motion.width(), motion.size() / 2) / 2;
   ground.spacing = round_length(2 * ground.radius / kCells);
   return ground;
+}
+
+}  // namespace
+
+std::optional<GroundPlane> ground_under(const MotionBox& motion, const Camera& camera) {
+  return ground_at(0, motion, camera);
+}
+
+std::optional<GroundPlane> ground_of_poses(const Chain& chain, const MotionBox& poses, const Camera& camera, const CameraEntry& wanted) {
+  if (!is_oblique(chain, wanted)) return std::nullopt;
+  return ground_at(chain.has_floating ? poses.lowest() : 0, poses, camera);
 }
 
 void draw_ground_plane(Picture& picture, const GroundPlane& ground, const Camera& camera, Color color,
@@ -97,7 +111,8 @@ class ShadowLayer : public OnGround {
   using OnGround::OnGround;
   UnderWords under_words() const override { return UnderWords::freely; }
   void draw(Picture& picture, const Shot& shot) const override {
-    if (ground_of(shot.panel)) draw_shadow(picture, shot.panel.drawing(), shot.ws, shot.panel.area(), shot.panel.clip());
+    if (const auto ground = ground_of(shot.panel))
+      draw_shadow(picture, shot.panel.drawing(), shot.ws, ground->height, shot.panel.area(), shot.panel.clip());
   }
 };
 

@@ -187,7 +187,7 @@ std::set<const StagedRun*> runs_on_rails(const Stage& stage) {
 }
 
 double trail_opacity(const Theme& theme) {
-  return theme.background.g < 128 ? kTrailOpacityOnDark : kTrailOpacity;
+  return is_dark(theme) ? kTrailOpacityOnDark : kTrailOpacity;
 }
 
 double longest_trail(const Panel& panel) {

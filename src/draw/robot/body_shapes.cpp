@@ -260,9 +260,10 @@ void add_bodies(Solids& solids, const BodyShapes& shapes, const Workspace& ws, c
 }
 
 void add_shadows(Solids& solids, const BodyShapes& shapes, const Workspace& ws, const Camera& camera,
-                 const Vector3d& up) {
+                 const Vector3d& up, double height) {
   Eigen::Affine3d onto_ground = Eigen::Affine3d::Identity();
   onto_ground.linear() -= up * up.transpose();
+  onto_ground.translation() = height * up;
   for (const BodyShape& shape : shapes.shapes) {
     const Eigen::Affine3d X_WM(pose_of(ws, shape.body) * shape.X_BM);
     solids.parts.push_back({shape.mesh, to_view(camera, onto_ground * X_WM), std::nullopt, nullptr});

@@ -89,8 +89,8 @@ Rect extent_of(const BodyShape& shape, const Workspace& ws, const Camera& camera
 Solids solids_seen_by(const Camera& camera);
 // The parts of all bodies as they stand after compute_kinematics.
 void add_bodies(Solids& solids, const BodyShapes& shapes, const Workspace& ws, const Camera& camera);
-// What they throw on the plane through the world's origin with normal `up` under a light right above.
+// What they throw on the plane with normal `up`, `height` (m) above the world's origin, under a light right above.
 void add_shadows(Solids& solids, const BodyShapes& shapes, const Workspace& ws, const Camera& camera,
-                 const Eigen::Vector3d& up);
+                 const Eigen::Vector3d& up, double height);
 
 }  // namespace chainreel

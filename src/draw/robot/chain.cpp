@@ -21,6 +21,7 @@ struct Part {
 };
 
 constexpr double kBodyOutline = 0.0015;  // of body shapes, units of H: their light shows their form
+constexpr double kBodyInk = 0.55;        // its opacity: a white body on a white page still ends where contrast is 3
 // Opacity of the black of a shadow, on a white page and on a dark one.
 constexpr double kShadow = 0.17, kShadowOnDark = 0.5;
 constexpr double kContact = 0.22, kContactOnDark = 0.5;  // ... and where a body touches the ground, besides
@@ -155,7 +156,7 @@ void draw_bodies(Picture& picture, const ChainDrawing& drawing, const Workspace&
   Solids solids = solids_seen_by(drawing.camera);
   add_bodies(solids, *drawing.shapes, ws, drawing.camera);
   solids.opacity = drawing.look.strength;
-  solids.outline = drawing.look.theme->ink;
+  solids.outline = drawing.look.theme->ink.faded(kBodyInk);
   solids.outline_width = kBodyOutline;
   picture.add(std::move(solids), clip);
 }
@@ -167,15 +168,15 @@ PageLine rail_line(const ChainDrawing& drawing, const Workspace& ws, const Rail&
   return with_overhang(way, rail.carrier, drawing.look);
 }
 
-void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Rect& area, int clip) {
+void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, double height, const Rect& area, int clip) {
   if (!drawing.shapes) return;
   const Vector3d up = up_of(drawing.chain);
-  const bool on_dark = drawing.look.theme->background.g < 128;
+  const bool on_dark = is_dark(*drawing.look.theme);
   Solids shadow = solids_seen_by(drawing.camera);
   shadow.is_shadow = true;
   shadow.fade = {area, kShadowFades, kShadowFades, kShadowFades, kShadowFades};
   Solids all = shadow;
-  add_shadows(all, *drawing.shapes, ws, drawing.camera, up);
+  add_shadows(all, *drawing.shapes, ws, drawing.camera, up, height);
   all.outline = color_of(0x000000, drawing.look.strength * (on_dark ? kShadowOnDark : kShadow));
   all.outline_width = kSoft;
   const std::vector<Solid> parts = all.parts;
@@ -184,7 +185,7 @@ void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace&
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const BodyShape& shape = drawing.shapes->shapes[i];
     double lowest = HUGE_VAL;
-    for (const Vector3d& corner : shape.corners) lowest = std::min(lowest, std::abs(up.dot(pose_of(ws, shape.body) * corner)));
+    for (const Vector3d& corner : shape.corners) lowest = std::min(lowest, std::abs(up.dot(pose_of(ws, shape.body) * corner) - height));
     if (!(lowest < highest)) continue;
     Solids contact = shadow;
     contact.parts = {parts[i]};

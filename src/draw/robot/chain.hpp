@@ -33,9 +33,9 @@ void draw_links(Picture& picture, const ChainDrawing& drawing, const Workspace& 
 // A rail from end to end, as it is drawn, from the joint's smaller values to its larger ones.
 PageLine rail_line(const ChainDrawing& drawing, const Workspace& ws, const Rail& rail);
 
-// What the body shapes throw on the plane through the world's origin under a light right above; nothing without them.
+// What the body shapes throw on the plane `height` (m) above the world's origin under a light right above; nothing without them.
 // Its edges are soft, it is darker below what comes near to the plane, and it fades before the edges of `area`.
-void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, const Rect& area, int clip);
+void draw_shadow(Picture& picture, const ChainDrawing& drawing, const Workspace& ws, double height, const Rect& area, int clip);
 
 // The root link's origin, where what is fixed to the world begins.
 Eigen::Vector3d root_place(const Chain& chain);

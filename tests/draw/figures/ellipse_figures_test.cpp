@@ -21,10 +21,6 @@ namespace {
 constexpr double kOneDegree = std::numbers::pi / 180;
 const std::vector<std::vector<double>> kPoses{{0, 90 * kOneDegree}, {0.4, 150 * kOneDegree}, {1, 60 * kOneDegree}};
 
-bool is_mass_ellipse(const Ellipse& e) {
-  return e.paint.stroke == light_theme().ellipse;
-}
-
 Point tip_of_rr(const std::vector<double>& q) {
   return {std::cos(q[0]) + std::cos(q[0] + q[1]), std::sin(q[0]) + std::sin(q[0] + q[1])};
 }
@@ -39,7 +35,7 @@ PoseFigureOptions with_layout(const std::string& layout) {
 TEST(Superposed, HasEveryEllipseAtItsTipWithItsOwnAxes) {
   const Picture picture =
       draw_ellipse_figure(TipMass(test::model("rr")), kPoses, with_layout("superposed"), fonts());
-  const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+  const auto ellipses = test::all_of<Ellipse>(picture, test::is_mass_ellipse);
   ASSERT_EQ(ellipses.size(), 3u);
   const Point a = tip_of_rr(kPoses[0]), b = tip_of_rr(kPoses[1]), c = tip_of_rr(kPoses[2]);
   const double scale = test::distance(ellipses[0].center, ellipses[1].center) / test::distance(a, b);
@@ -66,7 +62,7 @@ TEST(Superposed, NamesEachPoseWhereTheEyeFindsIt) {
     options.labels.push_back("t = " + std::to_string(options.labels.size()) + " s");
   }
   const Picture picture = draw_ellipse_figure(TipMass(chain), poses, options, fonts());
-  const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+  const auto ellipses = test::all_of<Ellipse>(picture, test::is_mass_ellipse);
   ASSERT_EQ(ellipses.size(), 7u);
   struct Name {
     std::size_t pose;
@@ -171,7 +167,7 @@ TEST(Superposed, ShowsChainsAsOnionSkinsAndEllipsesInFull) {
       picture, [](const Capsule& c) { return c.paint.stroke_width == size::kLinkOutline && c.paint.fill.a == 1; });
   ASSERT_EQ(links.size(), 6u);
   for (const Capsule& link : links) EXPECT_FALSE(link.paint.fill == light_theme().link[0]);
-  for (const Ellipse& e : test::all_of<Ellipse>(picture, is_mass_ellipse))
+  for (const Ellipse& e : test::all_of<Ellipse>(picture, test::is_mass_ellipse))
     EXPECT_TRUE(e.paint.stroke == light_theme().ellipse);
 }
 
@@ -232,7 +228,7 @@ TEST(EllipseFigure, OneFarHeavierPoseDoesNotMakeTheOthersSmall) {
   const auto largest = [](double degrees) {
     const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), {{0, degrees * kOneDegree}, {0, 60 * kOneDegree}, {0, 90 * kOneDegree}, {0, 150 * kOneDegree}}, {}, fonts());
     double length = 0;  // of the pose at 90 degrees, 2 kg, beside its link's
-    for (const Ellipse& e : test::all_of<Ellipse>(picture, is_mass_ellipse))
+    for (const Ellipse& e : test::all_of<Ellipse>(picture, test::is_mass_ellipse))
       if (std::abs(test::length(e.u) - 2 * test::length(e.v)) < 1e-9) length = test::length(e.u);
     return length;
   };
@@ -249,7 +245,7 @@ TEST(EllipseFigure, NumbersStandBesideTheAxisThatTheyAreOf) {
       PoseFigureOptions options;
       options.width = width;
       const Picture picture = draw_ellipse_figure(TipMass(chain), {q, {0.1, 1.3}}, options, fonts());
-      const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+      const auto ellipses = test::all_of<Ellipse>(picture, test::is_mass_ellipse);
       ASSERT_FALSE(ellipses.empty());
       const Ellipse& own = ellipses.front();
       const EffectiveMass mass = TipMass(chain).at(*std::make_unique<Workspace>(chain), q);
@@ -332,7 +328,7 @@ TEST(EllipseFigure, HasWholeEllipsesOfAllOrdinaryPosesOnEveryPage) {
         for (const Pose& pose : poses_of(mass, poses, options, ws)) ordinary += is_ordinary(pose.axes) ? 1 : 0;
         EXPECT_GE(ordinary, 2u) << model;
         const Picture picture = draw_ellipse_figure(mass, poses, options, fonts());
-        EXPECT_GE(test::all_of<Ellipse>(picture, is_mass_ellipse).size(), ordinary) << model << " " << layout << width;
+        EXPECT_GE(test::all_of<Ellipse>(picture, test::is_mass_ellipse).size(), ordinary) << model << " " << layout << width;
         EXPECT_THAT(test::words_of(picture), testing::Not(testing::HasSubstr("\u221E")));
       }
 }
@@ -373,7 +369,7 @@ TEST(Field, KeepsEachEllipseInItsCell) {
     EXPECT_LT(test::distance(moved, expected), 1e-3 / 1080);
   }
   for (const Item& item : picture.items)
-    if (const auto* e = std::get_if<Ellipse>(&item.shape); e && is_mass_ellipse(*e)) {
+    if (const auto* e = std::get_if<Ellipse>(&item.shape); e && test::is_mass_ellipse(*e)) {
       EXPECT_LE(test::length(e->u), side / 2);
     }
   // Circles, not squares: nothing of a curve or of its inside comes into the corners of a cell.
@@ -394,7 +390,7 @@ TEST(JointSpace, ShowsTheImageOfTheUnitCircle) {
   // M = [[3, 1], [1, 1]] at (0, 90 deg): eigenvalues 2 +- sqrt 2.
   const Picture picture =
       draw_joint_space_figure(test::model("rr"), {{0, 90 * kOneDegree}}, {0, 1}, {}, fonts());
-  const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+  const auto ellipses = test::all_of<Ellipse>(picture, test::is_mass_ellipse);
   ASSERT_EQ(ellipses.size(), 2u);
   const double radius = test::length(ellipses[0].u);
   EXPECT_NEAR(test::length(ellipses[0].v), radius, 1e-12);
@@ -437,7 +433,7 @@ TEST(JointSpace, OfSlidesHasTheirUnits) {
 TEST(JointSpace, TakesTheJointsThatAreNamed) {
   const auto ratio = [](std::array<int, 2> joints) {
     const auto ellipses = test::all_of<Ellipse>(
-        draw_joint_space_figure(test::model("rrr"), {{0, 1, 1}}, joints, {}, fonts()), is_mass_ellipse);
+        draw_joint_space_figure(test::model("rrr"), {{0, 1, 1}}, joints, {}, fonts()), test::is_mass_ellipse);
     return test::length(ellipses.at(1).u) / test::length(ellipses.at(1).v);
   };
   EXPECT_GT(std::abs(ratio({0, 1}) - ratio({1, 2})), 0.1);

@@ -19,10 +19,6 @@ EffectiveMass mass_of(const Chain& chain, const std::vector<double>& q) {
   return effective_mass_of(chain, ws, q, chain.end_effector, Task::linear);
 }
 
-bool is_mass_ellipse(const Ellipse& e) {
-  return e.paint.stroke == light_theme().ellipse;
-}
-
 TEST(PoseFigure, ShowsTheLastPoseInFullAndTheOthersAsOnionSkins) {
   const Chain chain = test::model("rr");
   const Picture picture = draw_pose_figure(chain, {{0, 0.5}, {0.4, 0.5}, {0.8, 0.5}}, {}, fonts());
@@ -48,7 +44,7 @@ TEST(EllipseFigure, DrawsEveryPoseAtTheSameScale) {
   const Chain chain = test::model("rr");
   const Picture picture =
       draw_ellipse_figure(TipMass(chain), {{0, 90 * kDeg}, {0, 150 * kDeg}}, {}, fonts());
-  const auto ellipses = test::all_of<Ellipse>(picture, is_mass_ellipse);
+  const auto ellipses = test::all_of<Ellipse>(picture, test::is_mass_ellipse);
   ASSERT_EQ(ellipses.size(), 2u);
   // Lambda = diag(1, 2), and eigenvalues 5 and 1.
   EXPECT_NEAR(test::length(ellipses[0].u) / test::length(ellipses[0].v), 2, 1e-12);
@@ -73,7 +69,7 @@ TEST(EllipseFigure, KeepsEllipsesOfOrdinaryPosesInsideTheirPanels) {
     int seen = 0;
     for (const Item& item : picture.items) {
       const auto* e = std::get_if<Ellipse>(&item.shape);
-      if (!e || !is_mass_ellipse(*e)) continue;
+      if (!e || !test::is_mass_ellipse(*e)) continue;
       const double w = std::hypot(e->u.x, e->v.x), h = std::hypot(e->u.y, e->v.y);
       EXPECT_TRUE(test::is_inside(picture.clips[std::size_t(item.clip)],
                                   Rect{e->center.x - w, e->center.y - h, e->center.x + w, e->center.y + h}));
@@ -101,7 +97,7 @@ TEST(EllipseFigure, PutsPanelsOnThePageWithoutOverlap) {
 TEST(EllipseFigure, LeavesTheBandOpenAndTellsTheOtherMassAtASingularPose) {
   const Chain chain = test::model("rr");
   const Picture picture = draw_ellipse_figure(TipMass(chain), {{0, 0}}, {}, fonts());
-  EXPECT_TRUE(test::all_of<Ellipse>(picture, is_mass_ellipse).empty());
+  EXPECT_TRUE(test::all_of<Ellipse>(picture, test::is_mass_ellipse).empty());
   EXPECT_THAT(test::words_of(picture), testing::HasSubstr("\u221E"));
   EXPECT_EQ(eigenvalues_notations(masses_of(mass_of(chain, {90 * kDeg, 0}))).back(), "(\u221E, 1)\u2009kg");
   // As all captions, in the face of formulas.

@@ -328,6 +328,20 @@ TEST(GroundPlane, NeedsARobotThatComesDownToIt) {
   EXPECT_FALSE(ground_under(box_of(up, {{-1, 0, 0}, {1, 2, 1}}), camera));  // seen from below
 }
 
+// Negative control: what is tied to the world has its ground at the origin alone.
+TEST(GroundPlane, OfPosesIsBelowWhatNothingTiesToTheWorld) {
+  Chain chain;
+  CameraEntry wanted;
+  wanted.elevation = 0.3;
+  const MotionBox poses = box_of(Vector3d::UnitZ(), {{-1, 0, -0.3}, {1, 2, 1}});
+  EXPECT_FALSE(ground_of_poses(chain, poses, Camera(), wanted));
+  chain.has_floating = true;
+  const auto ground = ground_of_poses(chain, poses, Camera(), wanted);
+  ASSERT_TRUE(ground);
+  EXPECT_LT((ground->middle - Vector3d(0, 1, -0.3)).norm(), kSpaceRoundOff);
+  EXPECT_EQ(ground->height, -0.3);
+}
+
 // The world turned with all that is in it, the ground turns along.
 TEST(GroundPlane, LiesAcrossGravity) {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(0.4, Vector3d(1, 2, 0.5).normalized()).toRotationMatrix();
