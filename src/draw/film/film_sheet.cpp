@@ -334,9 +334,7 @@ double FilmSheet::narrowest_panel(const Stage& stage) const {
   while (kNarrower * width > whole / kTitleLines && fit_titles(stage, kNarrower * width, kTitleLines, HUGE_VAL)) width *= kNarrower;
   if (!has_notes(stage)) return width;
   const TextStyle style{Face::label, scaled(kSmallestText, stage.page.text_scale), stage.theme.ink, Align::left};
-  // Of the clip's end rather than of the last instant shown: a picture of that end has the film's layout.
-  const std::string latest = time_text(std::max(stage.page.duration, stage.times.back()));
-  return std::max(width, lay_out_text(stage.fonts, kLeftThePicture + latest + ",", style).advance);
+  return std::max(width, lay_out_text(stage.fonts, kLeftThePicture + time_text(stage.latest_time()) + ",", style).advance);
 }
 
 std::optional<double> FilmSheet::row_of_titles(const Stage& stage, double width) const {

@@ -29,7 +29,7 @@ class TimeLayer : public Layer {
  public:
   explicit TimeLayer(const Stage& stage) : stage_(&stage), decimals_(time_decimals(stage.clock)) {}
 
-  void write(SheetText& text) const override { text.longest_time = time_text(stage_->times.back(), decimals_); }
+  void write(SheetText& text) const override { text.longest_time = time_text(stage_->latest_time(), decimals_); }
   void draw_page(Picture& picture, const SharedPage& page, int k) const override {
     draw_time(picture, page.sheet, stage_->times[std::size_t(k)], stage_->fonts, decimals_);
   }

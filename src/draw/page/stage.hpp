@@ -1,6 +1,7 @@
 // What a film shows, before anyone knows from where: the motions of its runs, and what all of them share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -142,6 +143,8 @@ struct Stage {
   bool is_comparison() const { return motions.size() > 1; }
   bool is_ghost() const;  // all in one place, all but the first in outline
   bool has_cells() const { return is_comparison() && !is_ghost(); }
+  // s: of the clip's end rather than of the last instant shown, so that a picture by itself has the film's layout.
+  double latest_time() const { return std::max(page.duration, times.back()); }
   bool stands_still(int k) const;  // a frame of a pause, or an end that is held
   std::size_t full_panels() const { return is_ghost() ? 1 : motions.size(); }
   // Of the lengths, in units of H, that arrows and ellipses have alone on a page: panels share it, and one higher than wide

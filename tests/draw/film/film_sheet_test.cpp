@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "draw/film/film.hpp"
 #include "draw/shapes.hpp"
@@ -14,26 +15,28 @@ namespace {
 
 // A film with a plot below its scene, and where its time stands.
 struct WithPlotBelow {
-  explicit WithPlotBelow(const std::vector<std::string>& overrides) {
-    std::vector<std::string> all{"layout=scene-below", "plot=[q]", "duration=0.5", "method=rk4", "step=1ms"};
+  explicit WithPlotBelow(const std::vector<std::string>& overrides, double last_picture = 10) {
+    std::vector<std::string> all{"layout=scene-below", "plot=[energy]", "duration=10", "method=rk4", "step=1ms"};
     all.insert(all.end(), overrides.begin(), overrides.end());
     Scene scene = read_scene("assets/scenes/rr_free.yaml", all);
     const Simulation simulation = prepare(scene, false);
-    const std::vector<double> times{0, 0.25, 0.5};
-    const Trajectory run = simulate(simulation, times);
+    const std::vector<double> times{0, last_picture}, whole{0, 5, 10};
+    Trajectory run = simulate(simulation, times);
+    run.between = std::make_shared<Trajectory>(simulate(simulation, whole));
     const Fonts fonts;
     const Film film(scene, {{scene, simulation.chain, run, &simulation}}, times, fonts);
     height = film.scene_area().height();
-    double numbers = NAN, time = NAN, em = 1;
+    double time = NAN, em = 1;
     for (const GlyphRun& words : test::all_of<GlyphRun>(film.static_layer()))
-      if (words.text.starts_with("0.5") && words.text.ends_with("s")) numbers = words.origin.y;
+      if (words.text.starts_with("10") && words.text.ends_with("s")) last_number = words.origin;
     for (const GlyphRun& words : test::all_of<GlyphRun>(film.frame(1)))
       if (words.text.starts_with("t")) time = words.origin.y, em = words.size;
-    rows_below = (numbers - time) / em;
+    rows_below = (last_number.y - time) / em;
   }
 
   double rows_below = 0;  // the plot's numbers, ems
   double height = 0;      // of the scene, H
+  Point last_number{NAN, NAN};
 };
 
 TEST(FilmSheet, PutsTheTimeBesideTheNumbersOfAPlotWhereARowWouldBeForItAlone) {
@@ -44,9 +47,16 @@ TEST(FilmSheet, PutsTheTimeBesideTheNumbersOfAPlotWhereARowWouldBeForItAlone) {
   EXPECT_LT(with_legend.height, alone.height);
 }
 
-// It may take six hundredths of the frame's width, no more.
-TEST(FilmSheet, KeepsARowForTheTimeWhereThePlotIsNarrow) {
-  EXPECT_GT(WithPlotBelow({"draw=[time, chain]", "video.width=720", "video.height=720", "text_scale=1.6"}).rows_below, 1);
+// It may take six hundredths of the frame's width, no more: what stands beside curves of short names is wider.
+TEST(FilmSheet, KeepsARowForTheTimeWhereThePlotWouldBeNarrow) {
+  EXPECT_GT(WithPlotBelow({"draw=[time, chain]", "plot=[q]"}).rows_below, 1);
+}
+
+// "t = 10.00 s" is wider than "t = 5.00 s", for which the plot is narrower.
+TEST(FilmSheet, OfAPictureOfAnEarlierInstantIsThatOfTheFilm) {
+  const std::vector<std::string> words{"draw=[time, chain]"};
+  ASSERT_LT(WithPlotBelow(words).last_number.x, WithPlotBelow({"draw=[chain]"}).last_number.x);
+  EXPECT_EQ(WithPlotBelow(words, 5).last_number.x, WithPlotBelow(words).last_number.x);
 }
 
 }  // namespace
