@@ -307,7 +307,7 @@ void FilmSheet::align_plots() {
 
 // A row of its own would take from panels what stands empty beside the numbers of a plot as wide as the page.
 bool FilmSheet::put_time_beside_numbers(const Stage& stage, const std::string& longest_time) {
-  constexpr double kMostOfFrame = 0.06;  // that it takes of the plot's width
+  constexpr double kMostOfFrame = 0.08;  // that it takes of the plot's width
   if (plots.empty() || has_plots_beside || plot_room.columns > 0 || (plots.size() > 1 && !has_plots_stacked)) return false;
   const double em = scaled(size::kAxis, stage.page.text_scale), width = lay_out_text(stage.fonts, longest_time, {Face::label, em}).advance;
   const Point numbers = plots.back().end_of_numbers();
