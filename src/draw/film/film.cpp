@@ -34,7 +34,7 @@ std::optional<std::pair<std::string, std::string>> broken_note(const std::string
 std::vector<Panel> panels_of(const Stage& stage, const FilmView& view) {
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < stage.motions.size(); ++i)
-    panels.emplace_back(stage.motions[i], PanelView{view.camera_of(i), view.cells[i].scene, int(i), view.marks}, stage.motions[i].theme_of(stage.theme));
+    panels.emplace_back(stage.motions[i], PanelView{view.camera_of(i), view.cells[i].scene, int(i), view.marks, view.room(i)}, stage.motions[i].theme_of(stage.theme));
   if (panels.size() == 1) return panels;
   std::vector<std::vector<Rail>> alone;
   for (const Panel& panel : panels) alone.push_back(panel.rails());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "draw/film/exact_curve.hpp"
 #include "draw/page/panel.hpp"
 #include "draw/page/wrapped_words.hpp"
@@ -100,6 +101,7 @@ StripRun strip_run(const Scene& page, const StagedRun& motion, const std::vector
   strip.accurate_until = motion.accurate_until();
   strip.change_points = motion.change_points();
   if (const Simulation* simulation = motion.simulation()) {
+    if (simulation->method && simulation->step > 0) strip.steps = simulation->method->title + ", " + format_shortest(1000 * simulation->step) + "\u2009ms";
     // Of higher order curves bend as the motion does, and steps are not seen.
     if (simulation->method && simulation->method->order == 1 && simulation->step >= kSeenStep * run.t.back()) {
       strip.step = simulation->step;

@@ -176,15 +176,15 @@ void FilmView::place_camera(const Stage& stage, const Layers& layers, const Film
 void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
   const std::vector<StagedRun>& motions = stage.motions;
   corners_.assign(layers.size(), std::vector<Point>(motions.size()));
+  rooms_.resize(motions.size());
   const double inset = stage.has_cells() ? kBarInset : 0;
   const auto stands_in = [&](std::size_t layer, const SceneCorner& corner) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
       const Rect& scene = cells[i].scene;
       const Point room = *layers[layer]->room_beside(motions[i]);
       const Point at = corners_[layer][i] = corner.lower_left(scene, room, inset);
-      if (!(at.x >= scene.x0 && at.y >= scene.y0 &&
-            is_free({at.x, at.y, at.x + room.x, at.y + room.y}, motions[i], layers, camera_of(i), marks, corner)))
-        return false;
+      rooms_[i] = {at.x, at.y, at.x + room.x, at.y + room.y};
+      if (!(at.x >= scene.x0 && at.y >= scene.y0 && is_free(*rooms_[i], motions[i], layers, camera_of(i), marks, corner))) return false;
     }
     return true;
   };
@@ -202,6 +202,7 @@ void FilmView::place_rooms(const Stage& stage, const Layers& layers) {
       if (width + size::kGutter > kLargestAside * scene.width() || room.y > scene.height())
         throw Error(ExitCode::bad_input, layers[l]->no_room(), stage.page.place_of("draw"));
       scene.x1 -= inset + width + size::kGutter;
+      rooms_[i].reset();  // it is beside the scene
     }
     fit_to_area(camera, stage, boxes_, cells.front().scene);
   }

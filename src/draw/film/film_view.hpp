@@ -1,6 +1,7 @@
 // Where the panels of a film lie, and the one camera that sees all of them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "draw/film/film_sheet.hpp"
@@ -31,6 +32,8 @@ struct FilmView {
   Camera camera_of(std::size_t panel) const;
   // Lower left of the room that a layer asked for in or beside the scene of a panel.
   Point corner(std::size_t layer, std::size_t panel) const { return corners_[layer][panel]; }
+  // What a layer has for itself of a panel's scene.
+  const std::optional<Rect>& room(std::size_t panel) const { return rooms_[panel]; }
   SharedPage shared_page(const Stage& stage, const FilmSheet& sheet) const;
 
  private:
@@ -41,6 +44,7 @@ struct FilmView {
   ViewBoxes boxes_;
   double row_below_ = 0;  // units of H, that layers keep for themselves below all scenes
   std::vector<std::vector<Point>> corners_;  // by layer and panel
+  std::vector<std::optional<Rect>> rooms_;   // by panel
 };
 
 }  // namespace chainreel

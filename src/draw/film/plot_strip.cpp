@@ -301,8 +301,9 @@ void PlotStrip::draw_change_points(Picture& picture, const std::string& note) co
 void PlotStrip::draw_note(Picture& picture, const std::string& words) const {
   if (words.empty()) return;
   const TextLine title = lay_out_words(*style_.fonts, data_.title, {Face::label, style_.text(size::kAxis), style_.theme->ink});
-  for (const std::string& said : {words, data_.short_note}) {
-    if (said.empty()) continue;
+  std::vector<std::string> notes = data_.shorter_notes;
+  notes.insert(notes.begin(), words);
+  for (const std::string& said : notes) {
     const TextLine note = lay_out_words(*style_.fonts, said, {Face::label, style_.text(size::kTick), style_.theme->muted, Align::right});
     // Over the names of curves, too, where the frame is narrow.
     const double right = std::max(frame_.box.x1, area_.x0 + title.advance + kNoteGap + note.advance);
@@ -326,8 +327,9 @@ void add_doubts(const StripRun& run, std::size_t i, StripData& data) {
     data.accurate_until = run.accurate_until;
     if (i == 0) data.note = "accurate until " + format_significant(run.accurate_until, 3) + " s";
   } else if (!data.of_runs && run.energy_off > 0 && run.plots[i].quantity == PlotQuantity::energy) {
-    data.short_note = "error: " + format_significant(run.energy_off, 2) + " J";
-    data.note = "numerical error of total: " + format_significant(run.energy_off, 2) + " J";
+    const std::string off = format_significant(run.energy_off, 2) + " J";
+    data.shorter_notes = {"numerical error of total: " + off, "error: " + off};
+    data.note = run.steps.empty() ? data.shorter_notes.front() : run.steps + ": total off by " + off;
   }
 }
 

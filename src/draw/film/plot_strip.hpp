@@ -36,7 +36,7 @@ struct StripData {
   double accurate_until = HUGE_VAL;  // s: what is plotted behind it nobody promises
   std::vector<double> change_points{};  // s: of constraints that lose rank, each a thin dotted line across the frame
   std::string note{};                // above the frame, at its right end, where it has room
-  std::string short_note{};          // ... where that has none
+  std::vector<std::string> shorter_notes{};  // ... where that has none, the first that has
 };
 
 // A stretch of a curve beyond an axis that leaves it out (draw/film/needles).
@@ -83,6 +83,7 @@ struct StripRun {
   double accurate_until = HUGE_VAL;  // s
   std::vector<double> change_points{};  // s
   double energy_off = 0;             // J: what a run makes or loses of it that no one should take for motion
+  std::string steps{};               // which do that: "semi-implicit Euler, 1 ms"
   bool is_named_by_colour = false;   // its panel's title has the colour of its curves
 };
 

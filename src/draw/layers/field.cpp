@@ -164,6 +164,7 @@ class Field : public Layer {
   }
 
   bool is_free(const Panel& panel, const Rect& part) const {
+    if (panel.room() && overlap(part, *panel.room())) return false;
     for (int i = 0; i < looks(panel); ++i) {
       const int k = look_at(panel, i);
       const Workspace& ws = panel.motion().pose_at(k);

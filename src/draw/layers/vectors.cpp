@@ -33,7 +33,7 @@ constexpr double kNearestName = 0.65;     // of an arc's whole radius: where it 
 constexpr double kClearOfJoint = 0.020;   // units of H: arcs of twice that have an edge, those within it none
 constexpr double kLegendArc = 1.3;        // of the arc that most of a film's are smaller than: that of the legend at most
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
-constexpr double kPlaceDot = 0.0050, kTieToPlace = 0.0030, kPlaceCasing = 0.0016;  // units of H: radius, width, on each side
+constexpr double kPlaceDot = 0.0050, kTieToPlace = 0.0015, kPlaceCasing = 0.0016;  // units of H: radius, width, on each side
 constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
 
@@ -406,7 +406,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
                {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines, theme_->background}, clip);
   // What is hardly more than a head, or none, is a dot, lest it be thought that nothing acts.
   if (scale.on_page(magnitude) < least_named && vector.kind != VectorKind::velocity)
-    picture.add(Ellipse{vector.pushes ? place : tail, {marks * kPlaceDot, 0}, {0, marks * kPlaceDot}, {color_of(vector.kind, *theme_), {}, 0}}, clip);
+    picture.add(Ellipse{vector.pushes || vector.aside != 0 ? place : tail, {marks * kPlaceDot, 0}, {0, marks * kPlaceDot}, {color_of(vector.kind, *theme_), {}, 0}}, clip);
   // A word beside such a one names what nobody sees, unless it is a number that stays: of a push, of a weight, or of a peak.
   const bool is_small = norm(arrow.v) < least_named;
   const bool stays = vector.kind == VectorKind::push || vector.kind == VectorKind::weight || vector.peak;

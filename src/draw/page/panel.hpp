@@ -45,6 +45,7 @@ struct PanelView {
   Rect area;
   int clip = 0;      // index of `area` in the pictures to come
   double marks = 1;  // size of marks, as in ChainLook
+  std::optional<Rect> room{};  // of `area`: what a layer has for itself
 };
 
 // A motion as a camera sees it: until when it is in the picture, and where its end effector goes on the page.
@@ -67,6 +68,7 @@ class Panel {
   const Rect& area() const { return view_.area; }
   int clip() const { return view_.clip; }
   double marks() const { return view_.marks; }
+  const std::optional<Rect>& room() const { return view_.room; }
   const TipPath& tip() const { return tip_; }
   int last() const { return last_; }  // frame that is drawn
   const ChainLook& look() const { return look_; }

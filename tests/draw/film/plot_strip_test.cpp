@@ -262,6 +262,8 @@ TEST(PlotStrip, MarksLongStepsAndWhatIsNotAccurate) {
   const std::string narrow = test::words_of(drawn(run, PlotQuantity::energy, {0.1, 0.1, 0.5, 0.4}));
   EXPECT_EQ(narrow.find("numerical"), std::string::npos);
   EXPECT_NE(narrow.find("error: 0.57 J"), std::string::npos) << "shorter rather than nothing";
+  run.steps = "semi-implicit Euler, 1 ms";
+  EXPECT_NE(test::words_of(drawn(run, PlotQuantity::energy)).find("semi-implicit Euler, 1 ms: total off by 0.57 J"), std::string::npos) << "the cause, where it has room";
   run.accurate_until = 2.6584;
   EXPECT_EQ(zones(drawn(run)), 1u);
   EXPECT_NE(test::words_of(drawn(run)).find("accurate until 2.66 s"), std::string::npos);

@@ -291,6 +291,22 @@ TEST(FieldLayer, KeepsOffSprings) {
   EXPECT_LT(arrow(slider("[chain, g]").film()).x1, arrow(film).x0) << "negative control: without a spring it stands on its side";
 }
 
+TEST(FieldLayer, KeepsOffTheMassMatrix) {
+  const auto swing = [](const std::string& draw) {
+    return Cause("rr_free", {"start={q: [20deg, 50deg]}", "torque=[1, 0]", "duration=2", "layout=scene", "draw=" + draw}, 2);
+  };
+  const auto arrow = [](const Film& film) {
+    const auto heads = test::all_of<Polygon>(film.static_layer(), [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().force; });
+    return heads.size() == 1 ? widened(test::box_of(heads[0]), 0.02) : Rect{};
+  };
+  const Cause with_table = swing("[chain, g, ellipse, mass_matrix]"), without = swing("[chain, g, ellipse]");
+  const Film film = with_table.film(), bare = without.film();
+  const Rect table = test::all_of<Cells>(film.frame(0)).at(0).rect;
+  ASSERT_GT(arrow(film).height(), 0);
+  EXPECT_FALSE(test::overlap(arrow(film), table));
+  EXPECT_TRUE(test::overlap(arrow(bare), table)) << "negative control: it stood there";
+}
+
 // One arrow stands for panels of one gravity alone.
 TEST(FieldLayer, StandsInEachPanelWhereGravityDiffers) {
   const auto arrows = [](const Cause& a, const Cause& b) {
