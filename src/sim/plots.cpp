@@ -149,6 +149,7 @@ void add_plot(PlotSet& plots, const PlotEntry& entry, const Chain& chain, const 
   PlotSet::Plot plot;
   plot.quantity = value_named<PlotQuantity>(entry.value).value_or(PlotQuantity::expression);
   plot.title = entry.title.empty() ? title_of(plot.quantity, chain) : entry.title;
+  plot.scale = entry.scale;
   const bool is_of_constraints = plot.quantity == PlotQuantity::lambda || plot.quantity == PlotQuantity::constraint_error;
   if (is_of_constraints && rows == 0)
     throw Error(ExitCode::bad_input, "there is no " + to_string(plot.quantity) + " to plot: the scene has no constraints", entry.place);
@@ -350,6 +351,12 @@ std::span<const Name> names_of(PlotQuantity) {
   return names;
 }
 
+std::span<const Name> names_of(PlotScale) {
+  static constexpr Name names[] = {{"linear", "equal steps are equally far apart"},
+                                   {"log", "equal factors are; what is not above zero has no place there"}};
+  return names;
+}
+
 std::shared_ptr<const PlotSet> make_plots(const Chain& chain, const std::vector<PlotEntry>& entries,
                                           const Parameters& parameters, const NamedFrames& frames,
                                           const std::optional<Foot>& foot, int rows) {
@@ -384,6 +391,7 @@ std::vector<PlotCurves> plot_curves(const PlotSet& plots, const Simulation& simu
     all.push_back(curves_of(plot, plots, simulation, trajectory, samples));
     all.back().quantity = plot.quantity;
     all.back().formula = plot.formula;
+    all.back().scale = plot.scale;
     all.back().title = plot.title == kMultipliers || plot.title == kMissed ? with_row_units(plot.title, simulation) : plot.title;
     all.back().angles = plot.quantity == PlotQuantity::q && units_of(simulation.chain) == JointUnits::turning;
   }

@@ -36,11 +36,15 @@ enum class PlotQuantity {
   expression,  // one curve
 };
 
+enum class PlotScale { linear, log };
+std::span<const Name> names_of(PlotScale);
+
 // A plot as the scene wrote it.
 struct PlotEntry {
   std::string value;  // a quantity's name, or an expression
   std::string title;  // of the axis, unit in brackets; "": the quantity's own, or the expression
   Place place;        // of `value`
+  PlotScale scale = PlotScale::linear;  // of the numbers' axis
 };
 
 // The plots of a scene, ready for any number of runs.
@@ -50,6 +54,7 @@ struct PlotSet {
     std::string title;
     std::string formula;  // that a title made of an expression begins with; else ""
     std::optional<Expression> value;
+    PlotScale scale = PlotScale::linear;
   };
   std::vector<Plot> list;
   Probe probe;
@@ -84,6 +89,7 @@ struct PlotCurves {
   bool angles = false;  // radians: ticks at multiples of pi/2
   std::vector<PlotCurve> curves;
   std::string formula{};  // as PlotSet::Plot has it
+  PlotScale scale = PlotScale::linear;
 };
 
 // One entry a plot, over the first `samples` samples.

@@ -147,7 +147,7 @@ TEST(Schema, RefusesWhatTheReaderRefuses) {
         "video: {width: 8}", "video: {width: 12.5}", "camera: {distance: -1}", "friction: maybe", "start: [0]",
         "constraints: [{lin: {}}]", "constraints: [{point: {frame: g}}]", "events: [{kind: stop}]",
         "events: [{when: q1, kind: mrk}]", "slow_motion: [{from: 1, until: 2, speed: 0}]",
-        "compare: [{video: {width: 640}}]", "compare: [{metod: rk4}]", "torque: {pdd: 1}", "plot: [{title: x}]",
+        "compare: [{video: {width: 640}}]", "compare: [{metod: rk4}]", "torque: {pdd: 1}", "plot: [{title: x}]", "plot: {value: q1, scale: cubic}",
         "contact_force: {constraint: 0, force: [1, 2]}", "text_scale: 4", "hold: {last: 4000}"})
     EXPECT_NE(problem_of(model + wrong), "") << wrong;
   EXPECT_NE(problem_of("title: no model"), "");
@@ -157,7 +157,7 @@ TEST(Schema, TakesConstantExpressionsAndDottedKeysOfPanels) {
   for (const char* good :
        {"start: {q: [90deg, pi/2]}", "step: 1e-3", "camera: {azimuth: 35deg, distance: parallel, fit: motion}",
         "compare: [{torque.2: 5}, {parameters.k: 3, title: b}, {}]", "torque: [1, {pd: {kp: 1, kd: [2, 3], q: sin(t)}}]",
-        "plot: energy", "plot: [q, {value: y_G, title: h}]", "video: {fps: 30000/1001}", "draw: [-trail, +ellipse]",
+        "plot: energy", "plot: [q, {value: y_G, title: h}]", "plot: {value: 1 + q1^2, scale: log}", "video: {fps: 30000/1001}", "draw: [-trail, +ellipse]",
         "title: 3", "accuracy: 1e-3 m", "slow_motion: [{from: 1s, until: 1.5s, speed: 0.25}]"})
     EXPECT_EQ(problem_of(std::string("model: a.urdf\n") + good), "") << good;
 }

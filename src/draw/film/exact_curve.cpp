@@ -11,6 +11,7 @@ namespace chainreel {
 namespace {
 
 constexpr double kConfirmed = 2e-3;  // of a curve's range, by which references may differ: half of what a line is thick
+constexpr double kConstant = 1e-6;   // of its size: a curve whose range is less is its rounding
 constexpr double kSeenApart = 1e-2;  // ... by which a run leaves the exact curve: two lines beside each other
 constexpr double kSameInstant = 1e-9;  // s
 constexpr double kExactLine = 0.0025;  // units of H: a secondary one
@@ -27,7 +28,10 @@ double value_at(std::span<const double> times, std::span<const double> values, d
 
 // How many of its points the other one confirms.
 std::size_t confirmed(std::span<const double> times, std::span<const double> values, std::span<const double> other_times, std::span<const double> others) {
-  const double span = span_of(values);
+  double size = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) size = std::max(size, std::abs(value));
+  const double span = std::max(span_of(values), kConstant * size);
   const std::size_t count = std::min(times.size(), values.size());
   for (std::size_t k = 0; k < count; ++k)
     if (!(std::abs(values[k] - value_at(other_times, others, times[k])) <= kConfirmed * span) && std::isfinite(values[k])) return k;

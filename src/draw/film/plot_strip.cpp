@@ -397,6 +397,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     data.change_points.insert(data.change_points.end(), run.change_points.begin(), run.change_points.end());
     data.angles = plot.angles;
     data.has_poles = plot.quantity == PlotQuantity::effective_mass;
+    data.is_log = plot.scale == PlotScale::log;
     // A comparison shows the sum of energies alone.
     const bool sum_alone = runs.size() > 1 && plot.quantity == PlotQuantity::energy;
     if (sum_alone && data.least_span == 0) keep_noise_small(data, runs, i);
@@ -404,7 +405,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
     if (sum_alone) shown.curves = {plot.curves.back()};
     for (std::size_t c = 0; c < shown.curves.size(); ++c) {
       StripCurve curve{
-          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild};
+          label_of(shown, c, run, runs.size()), style_of(shown, c, r, runs.size(), theme), {}, !run.wild || data.is_log};
       curve.shown_low = shown.curves[c].shown_low, curve.shown_high = shown.curves[c].shown_high;
       const std::vector<double>& y = shown.curves[c].y;
       const std::vector<double>& t = run.times[i];
@@ -413,6 +414,8 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
       if (data.has_poles && !curve.label.empty() && std::ranges::all_of(y, [](double one) { return std::isinf(one); })) curve.label += " = \u221E";
       if (const double alone = shown.curves[c].alone; alone > 0) curve.label += (curve.label.empty() ? "once " : ", once ") + format_power(alone) + unit_in(data.title);
       if (run.step > 0) std::ranges::copy_if(curve.points, std::back_inserter(curve.marks), [&](const Point& p) { return ends_step(p.x, run); });
+      // Straight lines between far states pass near to zero, where no step of the run has been.
+      if (data.is_log && run.step > 0) curve.points = curve.marks;
       data.curves.push_back(std::move(curve));
     }
   }

@@ -27,6 +27,7 @@ struct StripData {
   std::string title;
   bool angles = false;
   bool has_poles = false;  // masses, which are infinite at singular poses
+  bool is_log = false;     // of all that is above zero
   std::vector<StripCurve> curves;
   bool of_runs = false;  // several: a curve is a run's
   bool ends_in_numbers = false;  // of its curves, which titles of panels name

@@ -20,6 +20,7 @@ constexpr double kOffPlace[] = {0.06, 0.10, 0.15, 0.20};  // of words from what 
 constexpr double kHalfOfWords = 0.62;   // of their width: long ones stand on two lines, too
 constexpr double kLongWords = 8;        // em
 constexpr double kSameInstant = 1e-9;   // s
+constexpr char kAccurateUntilHere[] = "accurate until here";
 constexpr double kSamePlaceOfTies = 1e-6;  // m
 
 // A joint or a frame, whichever is not -1.
@@ -115,6 +116,8 @@ std::vector<Callout> callouts_of(const Stage& stage, const StagedRun& motion) {
     }
   if (const std::vector<double>& lost = motion.change_points(); !lost.empty())
     add(lost.front(), kRankLost, spot_of_ties(motion, pose_when(lost.front())));
+  // Where a plot has a zone for it, what moves on looks as true as before.
+  if (const int tip = motion.chain().end_effector; tip >= 0 && motion.accurate_until() < times.back()) add(motion.accurate_until(), kAccurateUntilHere, Spot{-1, tip});
   if (const std::optional<LimitEvent> limit = motion.stopping_limit()) {
     const Spot joint{body_of(motion.chain(), [&](const Joint& one) { return one.name == limit->joint; }), -1};
     if (joint.body > 0) add(run.end_time, words_of_stop(*limit), joint);

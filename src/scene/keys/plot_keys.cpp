@@ -16,6 +16,7 @@ PlotEntry read_entry(Fields& fields, const YAML::Node& node, const std::string& 
     inner.read("value", entry.value);
     if (!entry.value.empty()) entry.place = inner.place_of(inner.find("value"), "value");
     inner.read("title", entry.title);
+    inner.read("scale", entry.scale);
     inner.finish();
   }
   if (entry.value.empty())
@@ -35,8 +36,9 @@ KeyText told_plot() {
   const auto entry = [&] {
     return told_either("", {value(""), told_record("", {value("value").required(),
                                                         told("title", KeyForm::text,
-                                                             "of the axis, its unit in brackets")},
-                                                   "a plot with a title of its own")},
+                                                             "of the axis, its unit in brackets"),
+                                                        told_word("scale", names_of(PlotScale{}), "of the axis of its numbers; linear where left out")},
+                                                   "a plot with a title or a scale of its own")},
                        "a plot");
   };
   std::vector<KeyText> forms = entry().parts;
@@ -50,13 +52,14 @@ std::string plot_text(const Scene& scene) {
   return flow_text([&](YAML::Emitter& out) {
     out << YAML::Flow << YAML::BeginSeq;
     for (const PlotEntry& plot : scene.plot) {
-      if (plot.title.empty()) {
+      if (plot.title.empty() && plot.scale == PlotScale::linear) {
         out << YAML::DoubleQuoted << plot.value;
         continue;
       }
       out << YAML::Flow << YAML::BeginMap;
       out << YAML::Key << "value" << YAML::Value << YAML::DoubleQuoted << plot.value;
-      out << YAML::Key << "title" << YAML::Value << YAML::DoubleQuoted << plot.title;
+      if (!plot.title.empty()) out << YAML::Key << "title" << YAML::Value << YAML::DoubleQuoted << plot.title;
+      if (plot.scale != PlotScale::linear) out << YAML::Key << "scale" << YAML::Value << to_string(plot.scale);
       out << YAML::EndMap;
     }
     out << YAML::EndSeq;

@@ -175,6 +175,28 @@ TEST(PlotStrip, NoLineLeadsFromWhereACurveEndsEarly) {
   EXPECT_EQ(reaches(4), 0u);
 }
 
+// Whatever a run grows to has its place there; negative control: on a linear axis a wild one leaves it.
+TEST(PlotStrip, AnAxisOfFactorsHoldsWhatGrowsWithoutEnd) {
+  const Fonts fonts;
+  const auto strip = [&](PlotScale scale) {
+    std::vector<StripRun> runs{run_of("calm", false, {1, 2, 1, 2, 1}), run_of("wild", true, {1, 1e2, 1e5, 1e6, 1e8})};
+    for (StripRun& run : runs) run.plots[0].scale = scale, run.step = 2;
+    return PlotStrip(strip_data(runs, 0, 4, light_theme()), kStripArea, style_of(fonts));
+  };
+  const PlotFrame factors = strip(PlotScale::log).frame(), linear = strip(PlotScale::linear).frame();
+  EXPECT_EQ(factors.y.scale, Scale::log);
+  EXPECT_GT(factors.y.high, 1e8);
+  EXPECT_LT(factors.y.low, 1);
+  EXPECT_GT(factors.y.low, 0.01);
+  EXPECT_LT(linear.y.high, 3);
+  // Between the ends of steps, at 1 s and 3 s, it has no points: lines there would be none of the run's.
+  Picture picture;
+  strip(PlotScale::log).draw_static(picture);
+  const Color wild = light_theme().side_b.faded(0.45);
+  for (const Trail& curve : test::all_of<Trail>(picture))
+    if (curve.color == wild) EXPECT_EQ(curve.points.size(), 3u);
+}
+
 // Of a curve that runs off to a pole no number is told, for its samples there are chance; it points on where it leaves for good.
 TEST(PlotStrip, CurvesThatRunOffToAPolePointOnAndTellNoNumber) {
   const Fonts fonts;

@@ -134,5 +134,28 @@ TEST(StopAtLimit, IsSaidWhereItHappens) {
   EXPECT_THAT(words().second, Not(HasSubstr("limit")));
 }
 
+// Negative control: of a run that is accurate to the end nothing is said.
+TEST(Callouts, SayAtTheEndEffectorUntilWhenARunIsAccurate) {
+  Scene scene = read_scene("assets/scenes/rr_free.yaml", {"layout=scene", "draw=[chain]"});
+  const Simulation simulation = prepare(scene, false);
+  std::vector<double> times;
+  for (int k = 0; k < 120; ++k) times.push_back(k / 60.0);
+  const Trajectory run = simulate(simulation, times);
+  const Fonts fonts;
+  for (const double until : {1.0, 2.0}) {
+    PanelRun panel{scene, simulation.chain, run, &simulation};
+    panel.accurate_until = until;
+    const Film film(scene, {panel}, times, fonts);
+    int said = 0;
+    for (int k = 0; k < 120; ++k) {
+      const bool stands = times[std::size_t(k)] >= until - kBeforeCallout - 1e-9 && times[std::size_t(k)] <= until + kAfterCallout + 1e-9;
+      const int here = times_in(test::words_of(film.frame(k)), "accurate until here");
+      EXPECT_LE(here, stands) << k;
+      said += here;
+    }
+    EXPECT_EQ(said > 15, until < 2) << "a quarter of a second";
+  }
+}
+
 }  // namespace
 }  // namespace chainreel

@@ -574,7 +574,7 @@ TEST(ConstraintForces, AreNamedLikeTheirCurves) {
   const std::string words = test::words_of(four_bar.film().still(44));
   EXPECT_NE(words.find("(\U0001D706"), std::string::npos) << words;
   EXPECT_EQ(words.find("+"), std::string::npos) << words;
-  const Cause twice("redundant", {"layout=scene"}, 1);
+  const Cause twice("rrr_free", {"layout=scene", "start={q: [90deg, -90deg, -30deg]}", "constraints=[{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}, {line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}]"}, 1);
   const Film film = twice.film();
   const std::string first = test::words_of(film.still(0));
   for (const char* name : {"\u2212\U0001D7061", "\u2212\U0001D7062"}) EXPECT_NE(first.find(name), std::string::npos) << first;
@@ -591,7 +591,7 @@ TEST(ConstraintForces, AreNamedLikeTheirCurves) {
   EXPECT_NEAR(test::distance(heads[0], heads[1]), 0.02, 1e-6) << "page units, of the lanes; equal lengths";
   EXPECT_GT(dashes(pen.film().still(40)), 0u);
   // Of equal lines that run against one another each has its arrow, too.
-  const Cause against("redundant", {"layout=scene", "constraints.2.line.direction=[-1, 0]"}, 1);
+  const Cause against("rrr_free", {"layout=scene", "start={q: [90deg, -90deg, -30deg]}", "constraints=[{line: {frame: gripper, point: [0, 0.5], direction: [1, 0]}}, {line: {frame: gripper, point: [0, 0.5], direction: [-1, 0]}}]"}, 1);
   const std::string apart = test::words_of(against.film().still(0));
   for (const char* name : {"\u2212\U0001D7061", "\u2212\U0001D7062"}) EXPECT_NE(apart.find(name), std::string::npos) << apart;
 }
