@@ -91,7 +91,7 @@ using Covers = std::function<bool(const Rect&)>;
 // What a film says at a frame of an axis that its scene cuts.
 struct CutNumber {
   double length = 0;      // kg or m/s, by which the axis is known
-  std::string bound = {};  // "> 8", said instead of it; "": the number itself
+  std::string bound = {};  // "> 5", said instead of it; "": the number itself
   double opacity = 1;
 };
 

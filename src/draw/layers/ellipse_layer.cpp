@@ -88,7 +88,7 @@ class MassAlong {
       for (std::size_t i = 0; i < now.size(); ++i) lengths[i][k] = now[i];
     }
     std::vector<std::vector<CutNumber>> numbers;
-    for (const std::vector<CutLength>& axis : lengths) numbers.push_back(numbers_along(axis, stage_->page.video.fps.value()));
+    for (const std::vector<CutLength>& axis : lengths) numbers.push_back(numbers_along(axis, stage_->page.video.fps.value(), kFarOut / style.per_unit));
     return numbers;
   }
 

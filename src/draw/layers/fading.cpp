@@ -295,12 +295,8 @@ CutEnd cut_end(Point center, Point v, double length, const EllipseStyle& style) 
   const Point d = dot(v, style.outward) < 0 ? -1 * unit(v) : unit(v);
   const double way = way_out(style.scene, center, d), reached = std::clamp((norm(v) - way) / kAppearing, 0.0, 1.0);
   const double strength = style.stands ? std::round(reached) : reached;
-  // The number of one that leads so far out says how near to the singular pose the picture happens to be, and nothing of the robot.
-  constexpr double kFarOut = 100;  // units of H
-  const std::string far_bound = norm(v) > kFarOut ? bound_below(kFarOut / norm(v) * length) : "";
   const auto said = std::ranges::find(style.cut_numbers, length, &CutNumber::length);
-  if (said == style.cut_numbers.end()) return {d, way, strength, far_bound};
-  if (said->bound.empty()) return {d, way, std::min(strength, said->opacity), far_bound};
+  if (said == style.cut_numbers.end()) return {d, way, strength, norm(v) > kFarOut ? bound_below(length) : ""};
   return {d, way, std::min(strength, said->opacity), said->bound};
 }
 
