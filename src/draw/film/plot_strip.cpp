@@ -280,20 +280,22 @@ void PlotStrip::draw_static(Picture& picture) const {
   draw_end_labels(picture, frame_, ends, frame_.box.x1 + kPlotLabelGap, style_);
 }
 
-// Thin and dotted, which no curve is, and named where there is room above them beside the title and the note.
+// Thin and dotted, which no curve is; one says what they are, the first that has room above it beside the title and the note.
 void PlotStrip::draw_change_points(Picture& picture, const std::string& note) const {
   const auto words = [&](const std::string& text, double size, bool is_note) {
     return lay_out_words(*style_.fonts, text, {Face::label, style_.text(size), is_note ? style_.theme->muted : style_.theme->ink, Align::left});
   };
   const TextLine name = words(kRankLoss, size::kTick, true);
-  double taken = area_.x0 + words(data_.title, size::kAxis, false).advance + kNoteGap;
+  const double begin = area_.x0 + words(data_.title, size::kAxis, false).advance + kNoteGap;
   const double right = frame_.box.x1 - (note.empty() ? 0 : words(note, size::kTick, true).advance + kNoteGap);
+  bool is_named = false;
   for (const double t : data_.change_points) {
     draw_guide(picture, frame_, {t, frame_.y.low}, {t, frame_.y.high}, {style_.theme->muted, style_.theme->lines * kThinLine, Dash::dotted, Marker::none});
-    const double left = frame_.at({t, frame_.y.high}).x - name.advance / 2;
-    if (left < taken || left + name.advance > right) continue;
+    // Above its middle, or beside the title some of it.
+    const double at = frame_.at({t, frame_.y.high}).x, left = std::max(at - name.advance / 2, begin);
+    if (is_named || left > at || left + name.advance > right) continue;
     draw_text(picture, name, {left, frame_.box.y1 + title_above_frame(style_)});
-    taken = left + name.advance + kNoteGap;
+    is_named = true;
   }
 }
 

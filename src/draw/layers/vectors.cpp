@@ -361,7 +361,9 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   const double half_head = marks * size::kArrowHeadWidth / 2;
   const double off = std::max({grown * radius, kNearestName * radius, kLeastLabelled * marks}) + half_head + kVectorLabelGap;
   MarkWord word{word_name(vector), text, {}, std::nullopt, Tie{center, grown * radius + half_head, style.color}};
-  if (!vector.peak) word.tie->cost = kFarName;
+  const double swept = vector.swept * camera.scale + marks * kBesideSwept;
+  const bool has_outside = vector.swept > 0 && swept < kFarthestSwept;
+  if (!vector.peak && !has_outside) word.tie->cost = kFarName;
   const auto add_places = [&](double far, Point first) {
     for (const Rect& place : places_about(text, center, far, first)) {
       word.places.push_back(place);
@@ -371,8 +373,7 @@ void VectorPen::draw_torque(Picture& picture, const WorldVector& vector, const C
   for (const double far : {0.0, kFarLabelGap, 2.2 * kFarLabelGap}) add_places(off + far, {0, 1});
   // Where a link turns all around its joint, no word stays in one place but outside of that circle; aslant, where neither title nor
   // ground is.
-  const double swept = vector.swept * camera.scale + marks * kBesideSwept;
-  if (vector.swept > 0 && swept < kFarthestSwept) add_places(swept, std::sqrt(0.5) * Point{-1, 1});
+  if (has_outside) add_places(swept, std::sqrt(0.5) * Point{-1, 1});
   word.anchor = center;
   labels.add(std::move(word));
 }
@@ -415,20 +416,30 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const bool is_blank = is_small && vector.peak && !vector.peak->is_told;
   const TextLine text = is_blank ? TextLine{} : label(vector, marks, vector.peak ? vector.peak->is_told : is_small);
   ArrowPlaces places = places_along(text, tail, arrow.v, marks * size::kArrowHeadWidth / 2);
-  MarkWord word{word_name(vector), text, std::move(places.boxes)};
-  word.anchor = tail + arrow.v;
+  MarkWord word{word_name(vector), text, {}};
+  const bool is_tie = vector.kind == VectorKind::constraint;
+  const auto add_about_tail = [&] {
+    for (const double off : kAboutPeak)
+      for (const Rect& about : places_about(text, tail, off, {0, 1})) word.places.push_back(about);
+  };
+  // What ties exert is known by where it acts, and turns quicker than an eye follows.
+  if (is_tie) add_about_tail();
+  const std::size_t along = word.places.size();
+  word.places.insert(word.places.end(), places.boxes.begin(), places.boxes.end());
   // Of one that stands beside its link a word beyond its tip is at what acts on the next joint, and would be taken for its name.
-  if (vector.aside != 0) word.closed = std::move(places.beyond_tip);
-  // Where the arrow grows and turns quicker than an eye follows, its number rides along with its place.
-  if (vector.peak) word.anchor = tail;
+  if (vector.aside != 0) {
+    word.closed.assign(along, false);
+    word.closed.insert(word.closed.end(), places.beyond_tip.begin(), places.beyond_tip.end());
+  }
+  // Where the arrow grows and turns as quickly, its number rides along with its place.
+  word.anchor = is_tie || vector.peak ? tail : tail + arrow.v;
   // Of arrows side by side each has half of the places.
-  if (vector.peak || vector.lane != 0) {
+  if (is_tie || vector.peak || vector.lane != 0) {
     // An arrow that is longer is near to all of these places.
     const double length = norm(arrow.v);
     if (length < kLeastUntied && !is_blank) word.tie = Tie{tail, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
     if (word.tie && !vector.peak) word.tie->cost = kFarName;
-    for (const double off : kAboutPeak)
-      for (const Rect& about : places_about(text, tail, off, {0, 1})) word.places.push_back(about);
+    if (!is_tie) add_about_tail();
   }
   if (vector.lane != 0) close_beyond_middle(word, place, vector.lane * normal_to(unit(arrow.v)));
   labels.add(std::move(word));

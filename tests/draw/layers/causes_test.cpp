@@ -630,6 +630,16 @@ TEST(ChangePoint, IsShownAtOtherInstants) {
   EXPECT_LT(extra(then), extra(0)) << "where the chain is there itself it is none";
   const auto dashed = [](const Film& one) { return wires(one.static_layer(), light().muted).size(); };
   EXPECT_EQ(dashed(told) - dashed(plain), std::size_t(std::ranges::count_if(lost, [](double t) { return t < 1; }))) << "across the plot";
+  // One of these lines says what they all are, the first.
+  const auto names = [](const Film& one) { return test::all_of<GlyphRun>(one.static_layer(), [](const GlyphRun& run) { return run.text == "rank loss"; }); };
+  ASSERT_GT(lost.size(), 1u);
+  ASSERT_EQ(names(told).size(), 1u);
+  EXPECT_TRUE(names(plain).empty()) << "negative control";
+  std::vector<Trail> lines = wires(told.static_layer(), light().muted);
+  const auto left = std::ranges::min(lines, {}, [](const Trail& line) { return line.points.front().p.x; }).points.front().p.x;
+  const GlyphRun name = names(told).front();
+  EXPECT_LT(name.origin.x, left + kCauseRoundOff);
+  EXPECT_GT(name.origin.x + name.glyphs.back().x + name.size, left);
 }
 
 // A force that pushes its link comes from outside; where it is drawn from its place on, it lies on the link.
