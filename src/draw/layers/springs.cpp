@@ -137,18 +137,12 @@ class SliderSprings : public Layer {
     const Point end = carriage + (is_over_body ? 0 : rails * carriage_length(rail->carrier) / 2) * away;
     const Color color = toned(look.theme->torque, look);
     const Point half = (rails * kAnchorWidth / 2) * side;
-    // Hatching stands for the world: what moves with a link has a plate alone.
-    const PageLine plate{anchor - half, anchor + half};
-    if (drawing.chain.bodies[std::size_t(device.body)].parent == 0)
-      draw_ground(picture, plate, away, look, panel.clip());
-    else
-      draw_line(picture, plate, size::kGroundLine, toned(look.theme->base, look), panel.clip());
     const bool both = device.drive.is_spring() && device.drive.damping > 0;
     const double width = std::max(rails, kSmallest * panel.marks());
     const Point apart = ((both ? kSideBySide : 0) * width * size::kRailGap) * side;
     if (device.drive.is_spring()) {
       draw_rest(picture, drawing, shot.ws, device, side, rails, panel.clip());
-      draw_coil(picture, anchor + apart, end + apart, width * (both ? 0.6 : 1), color, panel.clip(), casing_over(panel));
+      draw_coil(picture, anchor + apart, end + apart, width * (both ? 0.6 : 1), color, panel.clip(), look.theme->background);
       if (is_named_) {
         const double beside = rails * (size::kRailGap / 2 + kRestBeyond);
         const std::string number = std::to_string(device.drive.freedom);
@@ -159,6 +153,12 @@ class SliderSprings : public Layer {
     if (device.drive.damping > 0)
       draw_dashpot(picture, anchor - apart, end - apart, width * (both ? 0.6 : 1), color,
                    look.theme->background, panel.clip());
+    // Over the pale edges of a coil. Hatching stands for the world: what moves with a link has a plate alone.
+    const PageLine plate{anchor - half, anchor + half};
+    if (drawing.chain.bodies[std::size_t(device.body)].parent == 0)
+      draw_ground(picture, plate, away, look, panel.clip());
+    else
+      draw_line(picture, plate, size::kGroundLine, toned(look.theme->base, look), panel.clip());
   }
 
   // Beside the rail, on one side or the other.

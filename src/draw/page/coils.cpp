@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWire = 0.0042;       // units of H
 constexpr int kWindings = 10, kPiecesOfWinding = 14;
-constexpr double kCoilRadius = 0.0215;  // as wide as a full rail, which hides nothing of it
+constexpr double kCoilRadius = 0.0175;  // within a full rail, with a gap to its lines
 constexpr double kLoop = 0.35;         // of the radius: how far a winding swings along the coil, which makes its loops
 constexpr double kLead = 0.012;        // of straight wire at both ends
 constexpr double kCylinder = 0.58, kPiston = 0.40, kCylinderWidth = 0.024;  // shares of the length; units of H

@@ -5,7 +5,7 @@
 
 namespace chainreel {
 
-// A coil from a to b: its windings go apart and together, their number stays. `casing`: of a wider line below it, over bodies; one that is
+// A coil from a to b: its windings go apart and together, their number stays. `casing`: of a wider line below it, over bodies and rails; one that is
 // transparent is none.
 void draw_coil(Picture& picture, Point a, Point b, double size, Color color, int clip, Color casing = {});
 // A cylinder that is fixed at a, with a piston whose rod ends at b.

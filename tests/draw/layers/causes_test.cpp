@@ -80,6 +80,13 @@ TEST(SpringLayer, DrawsACoilFromAFixedAnchorToTheSliderAndAMarkWhereItRests) {
     EXPECT_NEAR(to.x, slider.x, kCauseRoundOff);
     EXPECT_NEAR(slider.y - to.y, size::kCarriageLength / 2, kCauseRoundOff) << "at the carriage's lower edge";
     EXPECT_EQ(torque_heads(picture), 0) << "the coil says how large the force is";
+    // It is told from its rail by a pale edge, and by a gap to the lines of that.
+    const auto edges = wires(picture, light().background);
+    ASSERT_EQ(edges.size(), 1u) << k;
+    ASSERT_EQ(edges[0].points.size(), coils[0].points.size());
+    EXPECT_GT(edges[0].points[1].width, coils[0].points[1].width);
+    for (const TrailPoint& point : edges[0].points)
+      EXPECT_LT(std::abs(point.p.x - slider.x) + point.width / 2, (size::kRailGap - size::kRailLine) / 2) << k;
     shortest = std::min(shortest, test::distance(from, to));
     longest = std::max(longest, test::distance(from, to));
     // Dashes across the rail where y = 0.
@@ -96,6 +103,7 @@ TEST(SpringLayer, DrawsArrowsWhereALawIsNotLinear) {
   const Cause cause("pp_spring", {"torque=[0, -100 * y_G^3]"}, 0.5);
   const Picture picture = cause.film().frame(3);
   EXPECT_TRUE(wires(picture, light().torque).empty());
+  EXPECT_TRUE(wires(picture, light().background).empty()) << "no spring, no edge";
   EXPECT_EQ(torque_heads(picture), 1);
 }
 
