@@ -73,7 +73,8 @@ class TrailLayer : public Layer {
  public:
   explicit TrailLayer(const Stage& stage) : theme_(&stage.theme), on_rails_(runs_on_rails(stage)) {}
 
-  UnderWords under_words() const override { return UnderWords::freely; }
+  // Its newest part is seen through letters.
+  UnderWords under_words() const override { return UnderWords::if_need_be; }
 
   void draw(Picture& picture, const Shot& shot) const override {
     if (on_rails_.contains(&shot.panel.motion())) return;

@@ -1,10 +1,11 @@
-// Names of torques and of what ties exert, over films: where no link passes, and about where they act.
+// Names of torques, of what ties exert and of axes, over films: where no link passes, about where they act, off what is new of a trail.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "draw/film/film.hpp"
+#include "draw/page/word_plan.hpp"
 #include "draw/shapes.hpp"
 #include "scene/run/prepare.hpp"
 #include "scene/text/read_scene.hpp"
@@ -71,6 +72,26 @@ TEST(VectorNames, OfTiesStandAboutWhereTheyAct) {
              norm(nearest_in(word.box, *word.anchor) - *word.anchor) < 0.08;
     })) << k;
   }
+}
+
+// How many words of a film lie on what is new of its trail, `later` frames behind them.
+int words_on_trail(const Film& film, int later) {
+  int found = 0;
+  for (int k = 0; k + later < film.frame_count(); ++k) {
+    Picture seen;
+    for (const Trail& trail : test::all_of<Trail>(film.frame(k + later), [](const Trail& one) { return one.points.size() > 2 && one.points.front().alpha < one.points.back().alpha; }))
+      seen.add(trail, -1);
+    const auto newest = obstacles_of(seen);
+    for (const StandingWord& word : film.words(0, k)) found += word.opacity > 0 && lies_on(word.box, newest);
+  }
+  return found;
+}
+
+TEST(VectorNames, KeepOffWhatIsNewOfATrail) {
+  const NamedFilm swings("rr_ellipse", 300);
+  const int now = words_on_trail(*swings.film, 0);
+  EXPECT_LT(now, 40) << "of some four hundred";
+  EXPECT_GT(words_on_trail(*swings.film, 20), 2 * now) << "negative control: of what comes they know nothing";
 }
 
 }  // namespace
