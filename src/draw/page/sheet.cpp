@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kTextGap = 0.05;   // between texts that share a row
 constexpr double kNextRow = 1.5;    // of the em, for further rows
+constexpr double kAirAboveRows = 0.4;  // of the em, above the last of these
 constexpr double kNarrowPage = 1.2;  // aspect: below, titles may take two rows
 
 // Advances are proportional to the size, so one correction is enough. `lay_out`: of a style.
@@ -161,6 +162,7 @@ std::vector<std::vector<EntryLine>> entry_rows(const Builder& b, const SheetText
 void place_entries(Builder& b, const SheetText& text, double beside, double row_bottom, double row_top) {
   std::vector<std::vector<EntryLine>> rows = entry_rows(b, text);
   const double pitch = kNextRow * scaled(size::kAxis, b.sheet.text_scale);
+  const double foot_top = row_top;
   bool first = true;
   for (std::size_t i = rows.size(); i-- > 0; first = false) {
     double width = -kTextGap;
@@ -176,7 +178,8 @@ void place_entries(Builder& b, const SheetText& text, double beside, double row_
       x += step;
     }
   }
-  b.bottom = row_top;
+  // Lower rows than that of the time have less air above them than what stands there, as the numbers of a plot, is to keep off.
+  b.bottom = row_top + (row_top > foot_top ? kAirAboveRows * scaled(size::kAxis, b.sheet.text_scale) : 0);
 }
 
 void build_footer_band(Builder& b, const SheetText& text) {

@@ -93,6 +93,23 @@ TEST(Sheet, KeepsScalesOfVectorsAndTheEquationApartFromEverythingElse) {
   }
 }
 
+// Further rows of scales are closer than that of the time: what stands above them keeps off.
+TEST(Sheet, HasAirAboveRowsOfScales) {
+  const auto air_above = [](std::size_t entries, bool has_time) {
+    SheetText text;
+    if (has_time) text.longest_time = "t = 10.00 s";
+    for (std::size_t i = 0; i < entries; ++i) text.scales.push_back({ScaleEntry::Mark::arrow, 0.19, light_theme().ink, "constraint force 20 N"});
+    const Sheet sheet = laid_out(text, 1.0, 1.0);
+    double top = 0;
+    for (const PlacedEntry& entry : sheet.scales) top = std::max(top, entry.left.y);
+    return sheet.scene.y0 - top;
+  };
+  const double alone = air_above(1, false), rows = air_above(5, true);
+  EXPECT_NEAR(alone, size::kFooterBand / 2, 1e-9) << "of a row by itself there was enough";
+  EXPECT_NEAR(rows, (0.75 + 0.4) * size::kAxis, 1e-9);
+  EXPECT_NEAR(rows, alone, 0.1 * size::kAxis);
+}
+
 // Negative control: texts that do overlap are seen by the check above.
 TEST(Sheet, TextsMovedTogetherWouldOverlap) {
   const SheetText text = everything();
