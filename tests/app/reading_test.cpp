@@ -174,6 +174,17 @@ TEST(Reading, LargeWordsKeepThePlotThatNobodyAskedFor) {
   }
 }
 
+// Whoever asks for a place of plots and names none gets what is told of the motion.
+TEST(Reading, APlaceForPlotsIsFilled) {
+  const auto has_plot = [](const std::string& layout, const std::string& draw) {
+    return std::isfinite(area_of_plot(Page("rr_free", {"layout=" + layout, "draw=" + draw}).picture));
+  };
+  for (const std::string layout : {"scene-right", "scene-below"})
+    for (const std::string draw : {"[chain]", "[chain, mass_matrix]"}) EXPECT_TRUE(has_plot(layout, draw)) << layout << draw;
+  EXPECT_FALSE(has_plot("scene", "[chain]"));
+  EXPECT_FALSE(has_plot("auto", "[chain, mass_matrix]")) << "negative control: by itself a picture with M(q) has none";
+}
+
 // The strongest contrast of a word's pixels with what lies there without it: that of its stems.
 double contrast_of_word(const Image& with, const Image& without, const Rect& box, int height) {
   double most = 1;

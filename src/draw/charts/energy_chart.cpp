@@ -17,7 +17,7 @@ constexpr double kBeyondOthers = 1e3;
 // Energies likewise, in ranges of the others; of one that does not change a share of it is shown.
 constexpr double kRangesBeyond = 1, kLeastRange = 1e-3;
 constexpr int kMarkers = 5;  // along each curve
-constexpr const char* kNote = "each curve shows the largest error around each time";
+constexpr const char* kNote = "each curve shows the largest error until each time";
 constexpr const char* kNoteOfEnergies = "kinetic and potential energy, and that of springs, at the ends of steps";
 
 CurveStyle style_of(const EnergyChart& data, std::size_t curve, const ChartLook& look) {
@@ -27,6 +27,7 @@ CurveStyle style_of(const EnergyChart& data, std::size_t curve, const ChartLook&
   style.color = look.theme->base;
   style.width = size::kPlotLineSecondary;
   style.marker = Marker::none;
+  style.dash = Dash::solid;  // of a dozen in one colour no dashes can be told apart
   return style;
 }
 
@@ -94,6 +95,12 @@ Axis energy_axis(const EnergyChart& data) {
   }
   if (range.high - range.low < span) range = {range.low - span / 2, range.high + span / 2};
   return rounded_out({Scale::linear, range.low, range.high, "energy [J]"});
+}
+
+// Errors that oscillate through zero would lie in one tangle.
+std::vector<Point> largest_until(std::vector<Point> points) {
+  for (std::size_t i = 1; i < points.size(); ++i) points[i].y = std::max(points[i].y, points[i - 1].y);
+  return points;
 }
 
 std::vector<Point> energies_of(const EnergyCurve& curve) {
@@ -170,7 +177,7 @@ Picture energy_chart(const EnergyChart& data, const ChartLook& look) {
   std::vector<std::vector<Point>> curves;
   std::vector<std::string> texts;
   for (const EnergyCurve& curve : data.curves) {
-    curves.push_back(data.shows_energy ? energies_of(curve) : crests(curve, first, kColumns));
+    curves.push_back(data.shows_energy ? energies_of(curve) : largest_until(crests(curve, first, kColumns)));
     texts.push_back(is_named(curve) ? label_of(curve) : "");
   }
   const double labels = end_labels_width(texts, style);

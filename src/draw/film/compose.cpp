@@ -304,19 +304,22 @@ Layout with_story(const Scene& page, const Shown& film, Composition& plain) {
   const bool is_comparison = plain.stage->is_comparison();
   const bool is_ghost = plain.stage->is_ghost();
   const bool is_of_methods = differ_in_method_alone(*plain.stage);
+  // A place for plots that the page does not name.
+  const bool is_asked = !is_comparison && page.plot.empty() && (page.layout == PageLayout::scene_right || page.layout == PageLayout::scene_below);
   const bool may_tell = is_comparison ? page.plot.empty() && (is_ghost || is_of_methods || is_narrow(page))
-                                      : page.plot.size() <= 1 && page.layout == PageLayout::automatic;
+                                      : page.plot.size() <= 1 && (page.layout == PageLayout::automatic || is_asked);
   if (!may_tell) return {page, {}};
-  const Story story = page.plot.empty() ? story_of(*plain.stage) : Story();
+  const Story story = page.plot.empty() ? story_of(*plain.stage, is_asked) : Story();
   if (page.plot.empty() && story.empty()) return {page, {}};
   const bool leaves_half = !is_comparison && is_narrow(page) && plain.view.size_used().x < kNarrowMotion * plain.sheet.sheet.scene.width();
-  const double kept = is_of_methods                ? kLeastKeptOfMethods
+  const double kept = is_asked                     ? 0
+                      : is_of_methods                ? kLeastKeptOfMethods
                       : is_comparison && !is_ghost ? kLeastKeptOfPanels
                       : leaves_half                ? kLeastKeptOfNarrow
                       : is_narrow(page)            ? kLeastKeptStacked
                                                    : kLeastKept;
   // Where plots of a comparison stand FilmSheet knows.
-  const std::vector<PageLayout> layouts = is_comparison ? std::vector{page.layout} : std::vector{PageLayout::scene_right, PageLayout::scene_below};
+  const std::vector<PageLayout> layouts = is_comparison || is_asked ? std::vector{page.layout} : std::vector{PageLayout::scene_right, PageLayout::scene_below};
   // Names of the legend go before the plot.
   struct Trial {
     PageLayout layout;

@@ -100,9 +100,9 @@ bool differ_in_method_alone(const Stage& stage) {
   return std::ranges::all_of(stage.motions, [&first](const StagedRun& motion) { return entries_without_method(motion.scene()) == first; });
 }
 
-Story story_of(const Stage& stage) {
+Story story_of(const Stage& stage, bool is_asked) {
   const auto is_told = [](const StagedRun& motion) { return motion.samples() > 1 && motion.simulation() != nullptr; };
-  if (!std::all_of(stage.motions.begin(), stage.motions.end(), is_told) || is_transparent(stage.page) || stage.shows("mass_matrix")) return {};
+  if (!std::all_of(stage.motions.begin(), stage.motions.end(), is_told) || is_transparent(stage.page) || (stage.shows("mass_matrix") && !is_asked)) return {};
   if (stage.shows("ellipse")) return of_ellipse(stage);
   if (differ_in_method_alone(stage)) return of_all(stage, PlotQuantity::energy_error);
   const StagedRun& first = stage.motions.front();

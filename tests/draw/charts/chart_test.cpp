@@ -387,6 +387,25 @@ TEST(EnergyChart, OthersThanThoseInColourAreGreyAndHaveTheirNamesWhereThereIsRoo
   EXPECT_TRUE(says(energy_chart(data, small), "taylor"));
 }
 
+// Negative control: the errors themselves fall at each passage through zero.
+TEST(EnergyChart, ShowsTheLargestErrorUntilEachTime) {
+  EnergyChart data;
+  data.curves.push_back({"a", {}, {}, "", 0});
+  for (int i = 1; i < 2000; ++i) {
+    data.curves[0].t.push_back(0.01 * i);
+    data.curves[0].error.push_back(0.1 * std::sin(0.05 * i) * i);
+  }
+  const std::vector<Point> parts = crests(data.curves[0], 0.01, 240);
+  EXPECT_FALSE(std::ranges::is_sorted(parts, {}, &Point::y));
+  int curves = 0;
+  for (const Trail& curve : all_of<Trail>(energy_chart(data, look_of(light_theme())))) {
+    if (curve.color != curve_style(0, light_theme()).color || curve.points.size() < 20) continue;
+    ++curves;
+    for (std::size_t i = 1; i < curve.points.size(); ++i) EXPECT_GE(curve.points[i].p.y, curve.points[i - 1].p.y - 1e-12) << i;
+  }
+  EXPECT_EQ(curves, 1);
+}
+
 TEST(EnergyChart, SaysWhichRunsEndedEarly) {
   const Picture picture = energy_chart(sample_energy(), look_of(light_theme()));
   EXPECT_TRUE(says(picture, "explicit_euler (diverged)"));
