@@ -231,6 +231,7 @@ EllipseJob job_of(const EllipseOptions& options) {
   figure.labels = poses.labels;
   figure.path = poses.path;
   figure.cell = poses.cell;
+  figure.branch = poses.branch;
   figure.section = options.form(job.motion).section;
   figure.letters = options.letters;
   if (options.letters && !options.joint_space && (figure.cell > 0 || figure.layout == "superposed"))

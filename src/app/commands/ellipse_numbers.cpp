@@ -195,6 +195,8 @@ GatheredPoses field_of(const Chain& chain, const PoseSources& sources) {
   const int across = sources.samples > 0 ? sources.samples : kPointsAcross;
   GatheredPoses gathered;
   gathered.cell = 2 * solver.reach() / across;
+  const auto turning = std::count_if(chain.bodies.begin() + 1, chain.bodies.end(), [](const Body& body) { return body.joint.kind == JointKind::revolute; });
+  if (turning > 1) gathered.branch = chain.nq > 2 ? "joints bend alike" : "elbow " + sources.elbow;
   for (int j = 0; j < across; ++j)
     for (int i = 0; i < across; ++i) {
       const auto place = [&](int k) { return gathered.cell * (k + 0.5) - solver.reach(); };

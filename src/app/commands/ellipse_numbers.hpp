@@ -35,6 +35,7 @@ struct GatheredPoses {
   std::vector<double> t;              // s, along a motion
   std::vector<Eigen::Vector3d> path;  // of the end effector along the motion, m
   double cell = 0;                    // m, of a field
+  std::string branch;                 // of a field: which of several poses at a point
 };
 
 // The poses of a model. Throws Error (usage) where the options do not name any, or name them twice.

@@ -70,7 +70,7 @@ int draw_panel(Picture& picture, const Panels& panels, std::size_t i, const Pose
   style.lines = panels.marks;
   int unnamed = 0;
   style.unnamed = &unnamed;
-  if (has_lengths(panels)) style.labels = &labels;
+  if (has_lengths(panels) && !tells_lengths_below(panels)) style.labels = &labels;
   if (!drawing.shapes) style.hole = link_end(drawing.look);
   style.outward = last_link(panels.skeleton, ws, camera);
   if (drawing.shapes) style.hides = robot_hides(*drawing.shapes, ws, camera, tip_position(panels.chain, ws));
@@ -198,7 +198,7 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
   if (under != UnderPoses::named)
     text.legend = text.legend.substr(0, text.legend.find(": ")) +
                   (under == UnderPoses::masses ? ", eigenvalues of \u039B under each pose" : ", under each q: eigenvalues of \u039B");
-  if (options.cell > 0) text.legend += "; cut where longer than its cell";
+  if (options.cell > 0) text.legend += "; cut where longer than its cell" + (options.branch.empty() ? "" : ", " + options.branch);
   text.legend_size = size::kTick;
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts, height);

@@ -274,6 +274,10 @@ bool has_lengths(const Panels& panels) {
   return panels.lines.empty() || panels.side() > kRoom * scaled(size::kTick, panels.options.text_scale);
 }
 
+bool tells_lengths_below(const Panels& panels) {
+  return !panels.lines.empty() && panels.has_masses && panels.options.reading == EllipseReading::mass;
+}
+
 bool is_mostly_picture(const Panels& panels) {
   return panels.lines.empty() || panels.scene(0).height() >= (panels.below.empty() ? kLeastPicture : kAboveLines) * panels.places[0].height();
 }

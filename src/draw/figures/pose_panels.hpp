@@ -56,8 +56,10 @@ struct Panels {
   double side() const { return std::min(picture(0).width(), picture(0).height()); }
 };
 
-// Whether semi-axes have their numbers: small panels have no room for them.
+// Whether semi-axes may have their numbers: small panels have no room for them.
 bool has_lengths(const Panels& panels);
+// ... and whether the captions have them anyway.
+bool tells_lengths_below(const Panels& panels);
 // The best of all arrangements that there are; nothing where none has room.
 std::optional<Panels> best_panels(const Chain& chain, const std::vector<Pose>& poses, const PageInUnits& page, const Fonts& fonts,
                                   Workspace& ws);

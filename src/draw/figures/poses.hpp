@@ -41,6 +41,7 @@ struct PoseFigureOptions {
   std::vector<std::string> labels;    // "t = 0.5 s", one a panel; may be empty
   std::vector<Eigen::Vector3d> path;  // of the end effector, m: drawn below superposed poses
   double cell = 0;  // m: above 0 the poses are a field, each ellipse in a square of this side about its point
+  std::string branch{};  // ... at the one of several poses there that these words say
 };
 const std::vector<std::string>& figure_layout_names();
 // The page in a unit of its own: of what is higher than a slide the height of a slide as wide, so that words and marks do not grow with

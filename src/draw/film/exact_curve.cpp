@@ -26,12 +26,16 @@ double value_at(std::span<const double> times, std::span<const double> values, d
   return (1 - s) * values[next - 1] + s * values[next];
 }
 
-// How many of its points the other one confirms.
-std::size_t confirmed(std::span<const double> times, std::span<const double> values, std::span<const double> other_times, std::span<const double> others) {
+double range_of(std::span<const double> values) {
   double size = 0;
   for (const double value : values)
     if (std::isfinite(value)) size = std::max(size, std::abs(value));
-  const double span = std::max(span_of(values), kConstant * size);
+  return std::max(span_of(values), kConstant * size);
+}
+
+// How many of its points the other one confirms.
+std::size_t confirmed(std::span<const double> times, std::span<const double> values, std::span<const double> other_times, std::span<const double> others) {
+  const double span = range_of(values);
   const std::size_t count = std::min(times.size(), values.size());
   for (std::size_t k = 0; k < count; ++k)
     if (!(std::abs(values[k] - value_at(other_times, others, times[k])) <= kConfirmed * span) && std::isfinite(values[k])) return k;
@@ -42,7 +46,7 @@ std::size_t confirmed(std::span<const double> times, std::span<const double> val
 bool lies_on(const StripCurve& curve, std::span<const double> times, std::span<const double> values) {
   std::vector<double> both(values.begin(), values.end());
   for (const Point& p : curve.points) both.push_back(p.y);
-  const double span = span_of(both);
+  const double span = range_of(both);
   return std::ranges::all_of(curve.points, [&](const Point& p) {
     const double exact = value_at(times, values, p.x);
     return !std::isfinite(exact) || std::abs(p.y - exact) <= kSeenApart * span;

@@ -354,6 +354,7 @@ TEST(EllipseFigure, HasAllReadings) {
 TEST(Field, KeepsEachEllipseInItsCell) {
   PoseFigureOptions options;
   options.cell = 0.4;
+  options.branch = "elbow down";
   // A stretched chain among them: an open ellipse.
   std::vector<std::vector<double>> poses{{0, 0}};
   for (const double q2 : {0.8, 1.2, 1.6, 2.0}) poses.push_back({-0.5, q2});
@@ -383,7 +384,22 @@ TEST(Field, KeepsEachEllipseInItsCell) {
         EXPECT_LE(test::distance(piece->corners[std::size_t(i)], middle), side / 2);
   }
   EXPECT_THAT(test::words_of(picture), testing::Not(testing::HasSubstr("\u221E")));
-  EXPECT_THAT(test::words_of(picture), testing::HasSubstr("cut where longer than its cell"));
+  EXPECT_THAT(test::words_of(picture), testing::HasSubstr("cut where longer than its cell, elbow down"));
+}
+
+// Below each of many poses stand its masses: at the axes they would stand twice. Speeds stand at the axes alone.
+TEST(EllipseFigure, WritesEachMassOnce) {
+  std::vector<std::vector<double>> poses;
+  for (int i = 1; i <= 6; ++i) poses.push_back({0, 0.25 * i});
+  const auto numbers = [&](std::size_t count, EllipseReading reading, const std::string& unit) {
+    PoseFigureOptions options;
+    options.reading = reading;
+    const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), {poses.begin(), poses.begin() + std::ptrdiff_t(count)}, options, fonts());
+    return test::all_of<GlyphRun>(picture, [&](const GlyphRun& run) { return run.face == Face::label && run.color == light_theme().ellipse && run.text.ends_with(unit) && run.stroke_width == 0; }).size();
+  };
+  EXPECT_EQ(numbers(6, EllipseReading::mass, "kg"), 0u);
+  EXPECT_EQ(numbers(6, EllipseReading::energy, "m/s"), 12u);
+  EXPECT_EQ(numbers(2, EllipseReading::mass, "kg"), 4u) << "negative control: above a matrix the axes have theirs";
 }
 
 TEST(JointSpace, ShowsTheImageOfTheUnitCircle) {
