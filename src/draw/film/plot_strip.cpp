@@ -270,9 +270,9 @@ void PlotStrip::draw_static(Picture& picture) const {
   std::vector<EndLabel> ends;
   for (const StripCurve& curve : data_.curves) {
     draw_part(picture, frame_, curve, HUGE_VAL, *style_.theme, kPale);
-    const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [](const Point& p) { return std::isfinite(p.y); });
-    if (curve.label.empty() || curve.points.empty() || (last == curve.points.rend() && !data_.has_poles)) continue;
-    const Point end = last == curve.points.rend() ? Point{frame_.box.x1, frame_.box.y1} : frame_.at(*last);
+    const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(), [&](const Point& p) { return std::isfinite(p.y) && (!data_.is_log || p.y > 0); });
+    if (curve.label.empty() || curve.points.empty() || (last == curve.points.rend() && !data_.has_poles && !data_.is_log)) continue;
+    const Point end = last == curve.points.rend() ? Point{frame_.box.x1, data_.has_poles ? frame_.box.y1 : frame_.box.y0} : frame_.at(*last);
     // A leader from where a curve leaves the plot, or ends before the others, would be taken for its way on.
     const bool goes_on = !may_leave(curve) && last == curve.points.rbegin() && end.x >= frame_.box.x1 - kPlotLabelGap;
     ends.push_back({{goes_on ? end.x : frame_.box.x1, std::clamp(end.y, frame_.box.y0, frame_.box.y1)}, curve.label, curve.style});
@@ -418,6 +418,7 @@ StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double en
       if (run.step > 0) std::ranges::copy_if(curve.points, std::back_inserter(curve.marks), [&](const Point& p) { return ends_step(p.x, run); });
       // Straight lines between far states pass near to zero, where no step of the run has been.
       if (data.is_log && run.step > 0) curve.points = curve.marks;
+      if (data.is_log && !curve.label.empty() && std::ranges::none_of(y, [](double one) { return one > 0; })) curve.label += " \u2264 0";
       data.curves.push_back(std::move(curve));
     }
   }

@@ -12,6 +12,7 @@ namespace {
 constexpr double kLeastSpan = 1e-9;  // of the size of the numbers: less is a constant
 constexpr double kRangeAir = 0.06;        // of the range, above and below
 constexpr double kShareOfSteady = 0.35;   // of its size: what changes by less is shown with zero
+constexpr double kLeastOfLog = 1e-300, kLargestOfLog = 1e300;  // beyond, doubles end
 constexpr double kLeastAirOfLog = 1.5;  // above and below, of one constant
 constexpr double kSpanOfLog = 100;    // times the least: more has a log axis
 constexpr double kMostOfLog = 1000;    // times the least: up to there
@@ -54,13 +55,13 @@ std::optional<Axis> log_axis(const StripData& data) {
       if (p.y > 0 && std::isfinite(p.y)) low = std::min(low, p.y), high = std::max(high, p.y);
   if (!(low <= high)) return std::nullopt;
   const double air = std::max(std::pow(high / low, kRangeAir), kLeastAirOfLog);
-  return Axis{Scale::log, low / air, high * air, data.title};
+  return Axis{Scale::log, std::max(low / air, kLeastOfLog), std::min(high * air, kLargestOfLog), data.title};
 }
 
 }  // namespace
 
 Axis value_axis(const StripData& data) {
-  if (data.is_log)
+  if (data.is_log && !data.has_poles)
     if (const auto axis = log_axis(data)) return *axis;
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const bool only_deciding : {true, false}) {

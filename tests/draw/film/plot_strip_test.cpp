@@ -197,6 +197,27 @@ TEST(PlotStrip, AnAxisOfFactorsHoldsWhatGrowsWithoutEnd) {
     if (curve.color == wild) EXPECT_EQ(curve.points.size(), 3u);
 }
 
+// What has no place there has its name, which says so; negative control: what has one for a while is named without.
+TEST(PlotStrip, AnAxisOfFactorsNamesWhatIsNotAboveZero) {
+  const Fonts fonts;
+  const auto words_of = [&](const std::vector<double>& other) {
+    StripRun run = run_of("a", false, {1, 10, 100, 1000, 1e308});
+    run.plots[0].curves[0].name = "up";
+    run.plots[0].curves.push_back({"down", other});
+    run.plots[0].scale = PlotScale::log;
+    const PlotStrip strip(strip_data({run}, 0, 4, light_theme()), kStripArea, style_of(fonts));
+    EXPECT_TRUE(std::isfinite(strip.frame().y.high));
+    Picture picture;
+    strip.draw_static(picture);
+    EXPECT_TRUE(test::all_finite(picture));
+    return test::words_of(picture);
+  };
+  EXPECT_NE(words_of({-1, -2, 0, -3, -4}).find("down \u2264 0"), std::string::npos);
+  const std::string once = words_of({1, 2, 0, -3, -4});
+  EXPECT_NE(once.find("down"), std::string::npos);
+  EXPECT_EQ(once.find("\u2264"), std::string::npos);
+}
+
 // Of a curve that runs off to a pole no number is told, for its samples there are chance; it points on where it leaves for good.
 TEST(PlotStrip, CurvesThatRunOffToAPolePointOnAndTellNoNumber) {
   const Fonts fonts;
