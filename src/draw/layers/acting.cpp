@@ -129,6 +129,7 @@ class VectorLayer : public Layer {
   // be read, the largest size; 0: there are none.
   double largest_untold(VectorKind kind) const {
     const double cut = pen_.cut_beyond(kind);
+    if (!(scales_.largest[std::size_t(kind)] > cut)) return 0;
     double most = 0;
     for (std::size_t i = 0; i < stage_->full_panels(); ++i) {
       const StagedRun& motion = stage_->motions[i];
@@ -232,6 +233,7 @@ class VectorLayer : public Layer {
   // unless all do: their arrows are cut.
   static VectorScales scales_of(const Stage& stage, const VectorsAt& vectors_at) {
     VectorMagnitudes magnitudes;
+    VectorScales scales;
     std::vector<Magnitude> ties;  // at each sample the largest
     for (std::size_t i = 0; i < stage.full_panels(); ++i) {
       const StagedRun& motion = stage.motions[i];
@@ -240,20 +242,27 @@ class VectorLayer : public Layer {
       for (int k = 0; k < motion.samples(); ++k) {
         const Workspace& ws = motion.pose_at(k);
         // Where a run goes wild its forces say nothing.
-        if (chain.end_effector >= 0 && !(tip_position(chain, ws).norm() <= motion.limit())) break;
+        if (chain.end_effector >= 0 && !(tip_position(chain, ws).norm() <= motion.limit())) {
+          scales.largest.fill(HUGE_VAL);
+          break;
+        }
         const double weight = lasts(stage.times, std::size_t(k));
         ties.push_back({0, weight});
         for (const WorldVector& vector : vectors_at(motion, ws, k)) {
           magnitudes.add(vector, weight);
+          double& largest = scales.largest[std::size_t(vector.kind)];
+          largest = std::max({largest, vector.value.norm(), std::abs(vector.extreme.value_or(0))});
           if (vector.kind == VectorKind::constraint) ties.back().size = std::max(ties.back().size, vector.value.norm());
         }
       }
     }
-    auto full = magnitudes.full();
+    scales.full = magnitudes.full();
+    auto& full = scales.full;
     double& of_ties = full[std::size_t(VectorKind::constraint)];
     of_ties = without_needles(of_ties, std::move(ties));
     leave_out_noise(full, stage.motions.front().skeleton().reach);
-    return {full, stage.share_of_lengths()};
+    scales.shrink = stage.share_of_lengths();
+    return scales;
   }
 
   // All forces have the scale of the largest that the page shows: what is larger is longer, whatever layer draws it.

@@ -27,19 +27,22 @@ double way_begins(const TipPath& path, int k, double since, double longest) {
   for (int i = k - 1; i >= 0 && path.time(i + 1) > since; --i) {
     const int pieces = path.pieces(i, kPiece, kMostPieces);
     const double step = (path.time(i + 1) - path.time(i)) / pieces;
+    Point end = path.place(i + 1);
     for (int j = pieces; j > 0; --j) {
       const double to = path.time(i) + j * step;
-      const double piece = norm(path.at(to) - path.at(to - step));
+      const Point begin = path.at(to - step, i);
+      const double piece = norm(end - begin);
       if (way + piece > longest) return std::max(since, to - (longest - way) / piece * step);
       way += piece;
+      end = begin;
     }
   }
   return since;
 }
 
-TrailPoint trail_point(const TipPath& path, double t, double now, double lines, double length, double opacity) {
+TrailPoint trail_point(const TipPath& path, double t, int frame, double now, double lines, double length, double opacity) {
   const double fresh = freshness(now - t, length);
-  return {path.at(t), lines * (size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail)),
+  return {path.at(t, frame), lines * (size::kTrailTail + fresh * (size::kTrailHead - size::kTrailTail)),
           opacity * fresh};
 }
 
@@ -209,15 +212,16 @@ void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int c
     const double from = std::max(since, path.time(i)), to = path.time(i + 1);
     const int pieces = path.pieces(i, kPiece, kMostPieces);
     for (int j = 0; j < pieces; ++j)
-      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), now, lines, length, opacity));
+      trail.points.push_back(trail_point(path, from + j * ((to - from) / pieces), i, now, lines, length, opacity));
   }
-  trail.points.push_back(trail_point(path, now, now, lines, length, opacity));
+  trail.points.push_back(trail_point(path, now, k, now, lines, length, opacity));
   picture.add(std::move(trail), clip);
 
   // The dots stand still while the trail moves on: they belong to whole tenths of a second of the film.
   const double r = lines * size::kTrailDot / 2;
   for (int i = int(std::ceil(since * kTrailDotsPerSecond)); double(i) / kTrailDotsPerSecond <= now; ++i) {
-    const TrailPoint at = trail_point(path, double(i) / kTrailDotsPerSecond, now, lines, length, opacity);
+    const double t = double(i) / kTrailDotsPerSecond;
+    const TrailPoint at = trail_point(path, t, path.frame_at(t), now, lines, length, opacity);
     if (at.alpha > 0) picture.add(Ellipse{at.p, {r, 0}, {0, r}, {color.faded(at.alpha), {}, 0}}, clip);
   }
 }

@@ -66,6 +66,7 @@ struct VectorScale {
 struct VectorScales {
   std::array<double, kVectorKinds.size()> full{};  // by kind; 0: there is none
   double shrink = 1;  // of all lengths; below 1 where panels share a page
+  std::array<double, kVectorKinds.size()> largest{};  // ... no size is above, HUGE_VAL where that is not known
 
   VectorScale of(VectorKind kind) const;
 };

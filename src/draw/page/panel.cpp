@@ -25,9 +25,9 @@ void TipPath::add(double t, Point place, Point speed) {
   gap_.push_back(gap);
 }
 
-Point TipPath::at(double t) const {
+Point TipPath::at(double t, int frame) const {
   if (t >= t_.back()) return place_.back();
-  const std::size_t i = std::size_t(frame_at(t));
+  const std::size_t i = std::size_t(frame);
   const double h = t_[i + 1] - t_[i], s = (t - t_[i]) / h;
   const double s2 = s * s, s3 = s2 * s;
   return (2 * s3 - 3 * s2 + 1) * place_[i] + ((s3 - 2 * s2 + s) * h) * speed_[i] +

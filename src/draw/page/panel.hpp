@@ -25,7 +25,8 @@ class TipPath {
   double time(int k) const { return t_[std::size_t(k)]; }
   Point place(int k) const { return place_[std::size_t(k)]; }
   // Between the frames: the cubic that has their places and speeds. `t` within the path.
-  Point at(double t) const;
+  Point at(double t) const { return at(t, frame_at(t)); }
+  Point at(double t, int frame) const;  // which is that before t
   int frame_at(double t) const;  // the last one not after t
   // Into how many straight pieces the way from frame k to the next one is to be cut for none to be longer
   // than `length`.
