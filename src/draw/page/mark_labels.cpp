@@ -223,7 +223,8 @@ void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int 
     for (const PlacedBox& placed : boxes_apart(wishes, area, kBetweenLabels, farthest))
       standing.push_back({placed.box, placed.stands ? 1.0 : 0.0, {}});
   }
-  for (std::size_t i = 0; i < words_.size(); ++i) {
+  // Of a picture by itself whose plan has fewer words the others have no place.
+  for (std::size_t i = 0; i < std::min(words_.size(), standing.size()); ++i) {
     const Rect& box = standing[i].box;
     const double opacity = standing[i].opacity;
     if (!(opacity > 0)) continue;
