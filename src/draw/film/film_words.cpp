@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <future>
+#include <limits>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "draw/layers/body_obstacles.hpp"
@@ -156,10 +159,21 @@ MarkLabels FilmWords::labels(std::size_t panel, int frame) const {
 
 namespace {
 
-std::vector<StandingWord> standing_in(const Rect& area, std::span<const ChosenPlace> chosen, const std::vector<MarkWord>& words) {
-  std::vector<StandingWord> standing;
-  for (std::size_t i = 0; i < std::min(words.size(), chosen.size()); ++i) standing.push_back(standing_at(words[i], chosen[i], area));
-  return standing;
+// Which of a film's words each word of a still is: of its name the nearest. A still has words that the film leaves out where
+// they would run, and those the film does not know.
+std::vector<std::optional<std::size_t>> found_among(const std::vector<MarkWord>& of_film, const std::vector<MarkWord>& of_still) {
+  std::vector<std::optional<std::size_t>> found(of_still.size());
+  std::vector<bool> is_taken(of_film.size(), false);
+  for (std::size_t i = 0; i < of_still.size(); ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < of_film.size(); ++j) {
+      const double way = norm(center_of(of_film[j].places.front()) - center_of(of_still[i].places.front()));
+      if (is_taken[j] || of_film[j].name != of_still[i].name || of_film[j].places.size() != of_still[i].places.size() || !(way < least)) continue;
+      least = way, found[i] = j;
+    }
+    if (found[i]) is_taken[*found[i]] = true;
+  }
+  return found;
 }
 
 }  // namespace
@@ -169,7 +183,10 @@ std::vector<StandingWord> FilmWords::standing(const Stage& stage, const Layers& 
   if (panels_.empty() || panels_[panel].words.empty()) return {};
   std::vector<Obstacle> unused;
   const MarkLabels labels = Gatherer(layers, view, panels).gather(panel, frame, stage, unused);
-  return standing_in(panels_[panel].area, panels_[panel].words.at(frame), labels.words());
+  const std::span<const ChosenPlace> chosen = panels_[panel].words.at(frame);
+  std::vector<StandingWord> standing;
+  for (std::size_t i = 0; i < chosen.size(); ++i) standing.push_back(standing_at(labels.words()[i], chosen[i], panels_[panel].area));
+  return standing;
 }
 
 std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& layers, const FilmSheet& sheet, const FilmView& view,
@@ -178,17 +195,24 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
   const Gatherer gatherer(layers, view, panels);
   std::vector<Obstacle> obstacles = gatherer.once(panel, view.shared_page(stage, sheet));
   std::vector<MarkWord> wishes = gatherer.gather(panel, frame, stage, obstacles, true).words();
-  std::vector<StandingWord> words = standing_in(panels_[panel].area, panels_[panel].words.at(frame), wishes);
+  std::vector<Obstacle> unused;
+  const std::vector<MarkWord> of_film = gatherer.gather(panel, frame, stage, unused).words();
+  const Rect& area = panels_[panel].area;
+  const std::span<const ChosenPlace> chosen = panels_[panel].words.at(frame);
+  const std::vector<std::optional<std::size_t>> same = found_among(of_film, wishes);
+  std::vector<StandingWord> words;
+  for (std::size_t i = 0; i < wishes.size(); ++i) words.push_back(standing_at(wishes[i], same[i] ? chosen[*same[i]] : ChosenPlace{}, area));
   // A number that is told otherwise than in the film has other boxes at its places, which may lie on what the film's keep off.
-  const std::vector<StandingWord> in_film = standing(stage, layers, view, panels, panel, frame);
+  const auto is_told_otherwise = [&](std::size_t i) {
+    return same[i] && std::abs(words[i].box.width() - standing_at(of_film[*same[i]], chosen[*same[i]], area).box.width()) > kRoundOff;
+  };
   const auto lies_on_word = [&](std::size_t i) {
     for (std::size_t j = 0; j < words.size(); ++j)
       if (j != i && words[j].opacity > 0 && overlap(widened(words[i].box, kBetweenWords), words[j].box)) return true;
     return false;
   };
-  for (std::size_t i = 0; i < std::min(words.size(), in_film.size()); ++i)
-    if (std::abs(words[i].box.width() - in_film[i].box.width()) > kRoundOff && !wishes[i].leader && (lies_on(words[i].box, obstacles) || lies_on_word(i)))
-      words[i].opacity = 0;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (is_told_otherwise(i) && !wishes[i].leader && (lies_on(words[i].box, obstacles) || lies_on_word(i))) words[i].opacity = 0;
   const auto is_left_out = [](const StandingWord& word) { return !(word.opacity > 0); };
   const bool has_left_out = std::any_of(words.begin(), words.end(), is_left_out);
   for (StandingWord& word : words) word.opacity = is_left_out(word) ? 0 : 1;
@@ -200,7 +224,7 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
     else
       add_obstacles(words[i], wishes[i], obstacles);
   }
-  WordPlan plan(area_of_words(stage, panels[panel]), kLooksPerSecond);
+  WordPlan plan(area, kLooksPerSecond);
   plan.add(missing, obstacles);
   const std::vector<StandingWord> found = plan.standing().front();
   auto next = found.begin();

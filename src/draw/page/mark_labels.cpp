@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace chainreel {
 namespace {
@@ -223,8 +224,8 @@ void MarkLabels::draw(Picture& picture, const Rect& area, Color background, int 
     for (const PlacedBox& placed : boxes_apart(wishes, area, kBetweenLabels, farthest))
       standing.push_back({placed.box, placed.stands ? 1.0 : 0.0, {}});
   }
-  // Of a picture by itself whose plan has fewer words the others have no place.
-  for (std::size_t i = 0; i < std::min(words_.size(), standing.size()); ++i) {
+  if (standing.size() != words_.size()) throw std::logic_error("words that are drawn are not those that were planned");
+  for (std::size_t i = 0; i < words_.size(); ++i) {
     const Rect& box = standing[i].box;
     const double opacity = standing[i].opacity;
     if (!(opacity > 0)) continue;
