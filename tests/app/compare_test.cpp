@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 
 #include "core/json.hpp"
 #include "support/run_program.hpp"
@@ -175,6 +176,30 @@ TEST_F(CompareFilm, VaryIsACompareWithoutAFile) {
                    "draw=[chain, trail]", "--vary", "method=rk4,dop853", "--vary", "parameters.k=100,60"});
   ASSERT_EQ(other.status, 0) << other.err;
   EXPECT_NE(without_memory("file.svg"), without_memory("other.svg"));
+}
+
+// Methods look alike, six of them, too: what is wrong with the energy tells them apart, and by its colours who is who.
+TEST_F(CompareFilm, OfSixMethodsHasAPlotInTheColoursOfItsPanels) {
+  const auto svg_of = [&](const std::string& varied) {
+    const ProgramResult result = run_program({"snapshot", "rr_free", "--vary", varied, "--set", "step=5ms", "--set", "acknowledge=[energy]", "--at", "1", "-o", folder_.file("six.svg"), "--force"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_whole_file(folder_.file("six.svg"));
+  };
+  const auto colour_of = [](const std::string& svg, const std::string& title) {
+    const std::size_t word = svg.find(">" + title + "<"), fill = svg.rfind("fill=\"", word);
+    return word == std::string::npos ? "" : svg.substr(fill + 6, 7);
+  };
+  const std::string methods = svg_of("method=explicit_euler,semi_implicit_euler,rk4,taylor,symplectic_euler,verlet");
+  EXPECT_THAT(methods, HasSubstr("energy error [J]"));
+  std::set<std::string> colours;
+  for (const char* title : {"explicit Euler", "semi-implicit Euler", "RK4", "symplectic Euler", "Verlet"}) {
+    const std::string colour = colour_of(methods, title);
+    EXPECT_THAT(methods, HasSubstr("stroke=\"" + colour)) << title << ": no curve and no trail has its colour";
+    colours.insert(colour);
+  }
+  EXPECT_EQ(colours.size(), 5u);
+  const std::string starts = svg_of("start.q.1=10deg:60deg:6");
+  EXPECT_EQ(starts.find("energy error [J]"), std::string::npos) << "negative control: these are seen to differ";
 }
 
 TEST_F(CompareFilm, VaryRefusesWhatDoesNotFitAPage) {

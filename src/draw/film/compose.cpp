@@ -68,6 +68,10 @@ struct Shown {
   bool without_names = false;  // of the legend, for the sake of a plot
 };
 
+std::unique_ptr<const Stage> staged(const Scene& page, const Shown& film, const Story& story) {
+  return std::make_unique<const Stage>(page, film.runs, film.times, film.fonts, film.clock, film.arrows, !page.plot.empty() || !story.empty());
+}
+
 // Rows of formulas above panels that are low; `left_out` counts what had to go.
 Composition with_rows_for_panels(Composition low, const Shown& film, const Story& story, const PlotRoom& room) {
   Scene shown = low.stage->page;
@@ -77,7 +81,7 @@ Composition with_rows_for_panels(Composition low, const Shown& film, const Story
     if (std::erase(shown.draw, std::string(name)) == 0) continue;
     gone.push_back(name);
     try {
-      auto stage = std::make_unique<const Stage>(shown, film.runs, film.times, film.fonts, film.clock, film.arrows);
+      auto stage = staged(shown, film, story);
       Layers layers = layers_of(*stage);
       FilmSheet sheet(*stage, layers, story, room);
       FilmView view(*stage, layers, sheet);
@@ -102,7 +106,7 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
   while (true) {
     const char* next = is_enlarged ? next_to_go(shown) : nullptr;
     try {
-      auto stage = std::make_unique<const Stage>(shown, film.runs, film.times, film.fonts, film.clock, film.arrows);
+      auto stage = staged(shown, film, story);
       Layers layers = layers_of(*stage);
       FilmSheet sheet(*stage, layers, story, room);
       if (next == nullptr || sheet.sheet.scene.height() >= kLeastScene) {

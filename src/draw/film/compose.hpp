@@ -49,7 +49,7 @@ struct Composition {
 // scene would then keep less than two fifths of its size words are as large as leaves it that.
 inline constexpr double kLeastScene = 0.45;
 // A motion so narrow that it leaves half of a narrow page empty gives its plot more: kLeastKeptOfNarrow.
-inline constexpr double kLeastKept = 0.8, kLeastKeptOfPanels = 0.95, kLeastKeptOfMethods = 0.55, kLeastKeptOfNarrow = 0.6;
+inline constexpr double kLeastKept = 0.8, kLeastKeptOfPanels = 0.95, kLeastKeptOfMethods = 0.4, kLeastKeptOfNarrow = 0.6;
 inline constexpr double kLeastKeptStacked = 0.75;  // pages that have plots above one another have height to spare
 Composition compose(const Scene& page, const std::vector<PanelRun>& runs, const std::vector<double>& times, const Fonts& fonts,
                     const FilmClock& clock);

@@ -103,7 +103,7 @@ void StagedRun::extend(MotionBox& box) const {
 }
 
 Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::vector<double> shown_times,
-             const Fonts& all_fonts, FilmClock film_clock, ArrowShares shares)
+             const Fonts& all_fonts, FilmClock film_clock, ArrowShares shares, bool has_plots)
     : page(shown_page),
       fonts(all_fonts),
       theme(page_theme(page)),
@@ -112,7 +112,7 @@ Stage::Stage(const Scene& shown_page, const std::vector<PanelRun>& runs, std::ve
       arrows(std::move(shares)) {
   const int count = int(runs.size());
   const bool ghost = count > 1 && is_ghost_layout(page);
-  const bool has_colours = count > 1 && (count <= kMostColours || !page.plot.empty());
+  const bool has_colours = count > 1 && (count <= kMostColours || has_plots);
   const auto is_good = [](const PanelRun& run) { return is_complete(run.trajectory.status); };
   const bool any_good = std::any_of(runs.begin(), runs.end(), is_good);
   for (int i = 0; i < count; ++i) {

@@ -127,9 +127,10 @@ using ArrowShares = std::map<std::string_view, double>;
 
 struct Stage {
   // `page` says what all panels share. Sample k of each trajectory is its frame k, shown at times[k]; the clock says
-  // how fast the motion passes there. Throws Error (bad input) where there is no frame.
+  // how fast the motion passes there. `has_plots`: of the page or of its story, whose curves have the colours of many variants.
+  // Throws Error (bad input) where there is no frame.
   Stage(const Scene& page, const std::vector<PanelRun>& runs, std::vector<double> times, const Fonts& fonts,
-        FilmClock clock, ArrowShares arrows = {});
+        FilmClock clock, ArrowShares arrows = {}, bool has_plots = false);
 
   const Scene page;  // as it is drawn: its text_scale is that of its size
   const Fonts& fonts;
