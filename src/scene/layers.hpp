@@ -13,6 +13,7 @@ namespace chainreel {
 enum class LayerNeeds {
   nothing,
   end_effector,  // there is one: it is left out of models with several ends
+  way,           // the same, or a free base, whose centre of mass is followed then
   words,         // a page with room for words: it is left out of transparent pictures
 };
 
@@ -37,7 +38,8 @@ enum class LayerNeeds {
   ROW(shadow, "shadow", 13, nothing,                                                                        \
       "seen obliquely: the soft shadow of a light from above, darker where a body touches the ground")      \
   ROW(chain_rails, "chain", 0, nothing, "")                                                                 \
-  ROW(trail, "trail", 2, end_effector, "the last second of the end effector's way (`style: {trail: all}`: all of it), a dot every 0.1 s")      \
+  ROW(trail, "trail", 2, way,                                                                               \
+      "the last second of the end effector's way (`style: {trail: all}`: all of it), a dot every 0.1 s; of free robots with several ends that of their centre of mass") \
   ROW(slider_springs, "springs", 8, nothing,                                                                \
       "torques that are linear in a coordinate or a rate as the springs and dampers that they are")         \
   ROW(chain_links, "chain", 0, nothing, "")                                                                 \
@@ -61,7 +63,7 @@ enum class LayerNeeds {
   ROW(mark_labels, "", 0, nothing, "")                                                                      \
   ROW(chain_tip, "chain", 0, nothing, "")                                                                   \
   ROW(mass_matrix, "mass_matrix", 0, nothing, "M(q) as a live heat map, with numbers up to 4 x 4")          \
-  ROW(outlined_trail, "trail", 0, end_effector, "")                                                         \
+  ROW(outlined_trail, "trail", 0, way, "")                                                         \
   ROW(outlined_chain, "chain", 0, nothing, "")                                                              \
   ROW(title, "title", 4, words, "the title above it")                                                       \
   ROW(torque_label, "torque_label", 5, words, "the torques in words")                                       \

@@ -49,11 +49,17 @@ class ChainLinks : public Layer {
 
 class ChainTip : public Layer {
  public:
+  explicit ChainTip(const Stage& stage) : has_trail_(stage.shows("trail")) {}
+
   void draw(Picture& picture, const Shot& shot) const override {
     const Panel& panel = shot.panel;
+    if (has_trail_ && is_followed_by_center(panel.chain())) draw_center_of_mass(picture, panel.tip().place(shot.k), panel.look(), panel.clip());
     if (!panel.motion().shapes() && panel.chain().end_effector >= 0)
       draw_end_effector(picture, panel.tip().place(shot.k), panel.look(), panel.clip());
   }
+
+ private:
+  bool has_trail_;
 };
 
 // Colours and sizes of a chain in outline: wider than what is filled, so that both are seen where the runs agree.
@@ -161,8 +167,8 @@ std::unique_ptr<const Layer> make_layer_chain_rails(const Stage&) {
 std::unique_ptr<const Layer> make_layer_chain_links(const Stage&) {
   return std::make_unique<ChainLinks>();
 }
-std::unique_ptr<const Layer> make_layer_chain_tip(const Stage&) {
-  return std::make_unique<ChainTip>();
+std::unique_ptr<const Layer> make_layer_chain_tip(const Stage& stage) {
+  return std::make_unique<ChainTip>(stage);
 }
 std::unique_ptr<const Layer> make_layer_outlined_trail(const Stage& stage) {
   return std::make_unique<OutlinedTrail>(stage);

@@ -213,6 +213,7 @@ class Limits : public Layer {
       for (const JointKind kind : {JointKind::revolute, JointKind::prismatic})
         for_each_joint(motion.chain(), kind, [&](int body, const Joint& joint) {
           const double near = near_limit(joint);
+          if (rests(motion, joint)) return;
           for (const bool is_upper : {false, true})
             for (int k = 0; near > 0 && k < motion.counted(); ++k)
               if (left_to(joint, is_upper, motion.trajectory().q_at(k)[std::size_t(joint.q_index)]) < near) {
@@ -245,6 +246,15 @@ class Limits : public Layer {
     const double range = joint.limit.upper - joint.limit.lower;
     if (!std::isfinite(range) || !(range > 0)) return 0;
     return joint.kind == JointKind::revolute ? std::min(kNearLimit, kNearOfRange * range) : kNearEnd * range;
+  }
+  // A joint that stays where it began comes near to nothing, but where its limit holds it.
+  static bool rests(const StagedRun& motion, const Joint& joint) {
+    constexpr double kNoWay = 1e-6;  // rad or m
+    if (motion.scene().limit != LimitPolicy::report) return false;
+    const auto i = std::size_t(joint.q_index);
+    for (int k = 1; k < motion.counted(); ++k)
+      if (!(std::abs(motion.trajectory().q_at(k)[i] - motion.trajectory().q_at(0)[i]) <= kNoWay)) return false;
+    return true;
   }
   // Below zero beyond it.
   static double left_to(const Joint& joint, bool is_upper, double q) { return is_upper ? joint.limit.upper - q : q - joint.limit.lower; }

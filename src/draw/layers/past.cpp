@@ -89,6 +89,7 @@ class TrailLayer : public Layer {
     if (motion.variant()) return motion.variant()->color;
     // Of the link that carries it, which a closed loop has among others.
     const Chain& chain = motion.chain();
+    if (is_followed_by_center(chain)) return theme_->ink;
     const int body = chain.end_effector < 0 ? chain.nv : chain.frames[std::size_t(chain.end_effector)].body;
     return theme_->curve[std::size_t(std::max(body, 1) - 1) % theme_->curve.size()];
   }
@@ -195,7 +196,7 @@ double trail_opacity(const Theme& theme) {
 }
 
 double longest_trail(const Panel& panel) {
-  return panel.look().theme->trail > kTrailSeconds ? HUGE_VAL : kTrailReaches * panel.skeleton().reach * panel.camera().scale;
+  return panel.look().theme->trail > kTrailSeconds || panel.chain().has_floating ? HUGE_VAL : kTrailReaches * panel.skeleton().reach * panel.camera().scale;
 }
 
 void draw_trail(Picture& picture, const TipPath& path, int k, Color color, int clip, double lines, double length, double opacity, double longest) {

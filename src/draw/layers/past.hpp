@@ -16,7 +16,7 @@ inline constexpr int kTrailDotsPerSecond = 10;
 inline constexpr double kTrailOpacity = 0.7, kTrailOpacityOnDark = 0.9;  // where it begins: on dark ground the same is fainter
 double trail_opacity(const Theme& theme);
 // A trail is no longer on the page than so many times all links together: that of a fast end effector would lie over them loop by loop. One that a
-// style lets go back further than a second is as asked.
+// style lets go back further than a second is as asked, and that of a free robot is how it falls.
 inline constexpr double kTrailReaches = 2;
 double longest_trail(const Panel& panel);
 // The trail as it stands at frame k; `lines`: times its width; `length`: how far it goes back, s; `longest`: on the page.

@@ -108,13 +108,14 @@ void Panel::find_last_inside() {
 }
 
 void Panel::follow_tip() {
-  if (chain().end_effector < 0) return;
+  const bool is_center = is_followed_by_center(chain());
+  if (chain().end_effector < 0 && !is_center) return;
   tip_.reserve(std::size_t(last_) + 1);
   for (int k = 0; k <= last_; ++k) {
     const Workspace& ws = motion_->pose_at(k);
-    const Eigen::Vector3d tip = tip_position(chain(), ws);
-    tip_.add(motion_->trajectory().t[std::size_t(k)], camera().project(tip),
-             camera().project_vector(frame_velocity(chain(), ws, chain().end_effector), tip));
+    const Eigen::Vector3d tip = is_center ? center_of_mass(chain(), ws) : tip_position(chain(), ws);
+    const Eigen::Vector3d speed = is_center ? center_velocity(chain(), ws) : frame_velocity(chain(), ws, chain().end_effector);
+    tip_.add(motion_->trajectory().t[std::size_t(k)], camera().project(tip), camera().project_vector(speed, tip));
   }
 }
 

@@ -13,7 +13,7 @@ namespace chainreel {
 // Frames further apart, where a film shows the motion much faster than it was, do not say how it went between them.
 inline constexpr double kLongestTrailStep = 0.1;  // s
 
-// Where the end effector was on the page and how fast it moved there, at the frames.
+// Where the end effector, or the centre of mass of what is followed by that, was on the page and how fast it moved there, at the frames.
 class TipPath {
  public:
   // `speed` in page units a second. A place off the page by far, or not finite, is a gap: no trail crosses

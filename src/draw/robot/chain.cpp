@@ -298,6 +298,22 @@ Eigen::Vector3d center_of_mass(const Chain& chain, const Workspace& ws) {
   return moment;
 }
 
+Eigen::Vector3d center_velocity(const Chain& chain, const Workspace& ws) {
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  double mass = 0;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {
+    const Inertia& inertia = chain.bodies[b].inertia;
+    momentum += inertia.mass * (ws.v_WB[b] + ws.w_WB[b].cross(ws.X_WB[b].linear() * inertia.com));
+    mass += inertia.mass;
+  }
+  if (mass > 0) momentum /= mass;
+  return momentum;
+}
+
+bool is_followed_by_center(const Chain& chain) {
+  return chain.end_effector < 0 && chain.has_floating;
+}
+
 Vector3d tip_position(const Chain& chain, const Workspace& ws) {
   return frame_position(chain, ws, chain.end_effector);
 }

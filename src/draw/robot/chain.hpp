@@ -48,6 +48,9 @@ Eigen::Vector3d tip_position(const Chain& chain, const Workspace& ws);
 Point last_link(const Skeleton& skeleton, const Workspace& ws, const Camera& camera);
 // The centre of mass of the whole chain after compute_kinematics; the origin where nothing has mass.
 Eigen::Vector3d center_of_mass(const Chain& chain, const Workspace& ws);
+Eigen::Vector3d center_velocity(const Chain& chain, const Workspace& ws);  // m/s
+// A free robot with several ends is followed by its centre of mass, which forces within do not move.
+bool is_followed_by_center(const Chain& chain);
 // ... and the x and y axes of its frame in W.
 Eigen::Matrix<double, 3, 2> tip_plane(const Chain& chain, const Workspace& ws);
 

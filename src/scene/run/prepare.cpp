@@ -193,9 +193,11 @@ std::shared_ptr<const EventSet> events_of(const Scene& scene, const Simulation& 
   }
 }
 
-// Layers of the end effector. Who names them asks for one; of the default ones those are left out that need it.
+// Layers of the end effector, where there is none. Who names them asks for one; of the default ones those are left out that need it.
 void require_end_effector_of_layers(Scene& scene, const Chain& chain) {
-  const auto needs_one = [](const std::string& layer) { return layer_needs(layer, LayerNeeds::end_effector); };
+  const auto needs_one = [&](const std::string& layer) {
+    return layer_needs(layer, LayerNeeds::end_effector) || (layer_needs(layer, LayerNeeds::way) && !chain.has_floating);
+  };
   const auto first = std::find_if(scene.draw.begin(), scene.draw.end(), needs_one);
   if (first == scene.draw.end()) return;
   if (scene.places.contains("draw")) {

@@ -2,8 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "draw/film/film.hpp"
+#include "draw/robot/chain.hpp"
 #include "draw/shapes.hpp"
+#include "dynamics/kinematics.hpp"
 #include "picture/theme.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace chainreel {
 namespace {
@@ -143,6 +151,69 @@ TEST(Trail, OfATwiceAsFastClockWouldReachTwiceAsFarBack) {
   draw_trail(picture, path, 150, light_theme().curve[1], -1);
   EXPECT_GT(test::distance(test::all_of<Trail>(picture).at(0).points.front().p, on_circle(150 / 60.0 - 1)),
             0.1);
+}
+
+// Two arms that swing at a free trunk.
+constexpr char kTwoEnds[] = R"(<robot name="two">
+  <link name="trunk"><inertial><mass value="3"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="left"><inertial><origin xyz="0 0 -0.4"/><mass value="1"/><inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="right"><inertial><origin xyz="0 0 -0.5"/><mass value="2"/><inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="l" type="continuous"><origin xyz="0 0.3 0"/><axis xyz="1 0 0"/><parent link="trunk"/><child link="left"/></joint>
+  <joint name="r" type="continuous"><origin xyz="0 -0.3 0"/><axis xyz="1 0 0"/><parent link="trunk"/><child link="right"/></joint>
+</robot>
+)";
+
+class FreeRobot : public ::testing::Test {
+ protected:
+  explicit FreeRobot(const std::string& base = "floating") {
+    folder_.write("two.urdf", kTwoEnds);
+    scene = read_scene(folder_.write("two.yaml", "model: two.urdf\nbase: " + base + "\ngravity: [0, 0, -9.81]\nduration: 1\nlayout: scene\nmethod: rk4\nstep: 1ms\nstart: {qd: [" +
+                                                (base == "floating" ? "0, 0, 0, 0, 0, 0, " : "") + "3, -5]}\n"));
+    simulation = prepare(scene, false);
+    for (int k = 0; k < 60; ++k) times.push_back(k / 60.0);
+    run = simulate(simulation, times);
+  }
+  Film film() const { return Film(scene, {{scene, simulation.chain, run, &simulation}}, times, fonts); }
+  std::vector<TrailPoint> trail_at(int k) const {
+    const auto trails = test::all_of<Trail>(film().frame(k), [](const Trail& trail) { return trail.color == light_theme().ink; });
+    return trails.empty() ? std::vector<TrailPoint>() : trails.front().points;
+  }
+
+  Scene scene;
+  Simulation simulation;
+  std::vector<double> times;
+  Trajectory run;
+  Fonts fonts;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+// What moves within does not move it: however the arms swing it falls as a point does, g t^2 / 2.
+TEST_F(FreeRobot, WithSeveralEndsIsFollowedByItsCentreOfMass) {
+  Workspace ws(simulation.chain);
+  compute_kinematics(simulation.chain, ws, run.q_at(0), run.qd_at(0));
+  const Eigen::Vector3d start = center_of_mass(simulation.chain, ws), speed = center_velocity(simulation.chain, ws);
+  EXPECT_GT(speed.norm(), 0.1) << "negative control: it is not at rest";
+  const Camera camera = film().camera();
+  constexpr double kOfRun = 1e-5;  // units of H: the state is of RK4 at 1 ms, between frames the cubic has a parabola to (g h^2) / 8 of its eye's bend
+  for (const int k : {6, 30, 59}) {
+    const std::vector<TrailPoint> points = trail_at(k);
+    ASSERT_GT(points.size(), 2u) << k;
+    const auto place = [&](double t) { return camera.project(start + t * speed - Eigen::Vector3d(0, 0, 9.81 * t * t / 2)); };
+    EXPECT_LT(test::distance(points.back().p, place(times[std::size_t(k)])), kOfRun) << k;
+    EXPECT_LT(test::distance(points.front().p, place(0)), kOfRun) << "it goes back all of the fall, many times its size";
+  }
+}
+
+class HeldRobot : public FreeRobot {
+ protected:
+  HeldRobot() : FreeRobot("fixed") {}
+};
+
+TEST_F(HeldRobot, WithSeveralEndsHasNoTrail) {
+  EXPECT_TRUE(trail_at(30).empty());
+  EXPECT_EQ(std::ranges::count(scene.draw, "trail"), 0);
 }
 
 }  // namespace
