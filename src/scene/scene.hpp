@@ -134,6 +134,7 @@ struct Scene {
   Outcome expect = Outcome::finish;
   std::vector<std::string> acknowledge;        // kinds of doubts that are known, and not printed
   std::vector<std::string> draw = default_layers();  // what is drawn: see scene/layers
+  std::vector<std::string> named_layers;             // of these, what `draw:` itself names
   LinkShapes links = LinkShapes::automatic;
   MeshUp mesh_up = MeshUp::rviz;
   EllipseEntry ellipse;

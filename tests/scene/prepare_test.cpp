@@ -88,11 +88,17 @@ TEST(Prepare, AsksForAnEndEffectorOnlyWhereSomethingOfItIsWanted) {
 
   // Who names one of them, or reads x_G, is told what to type.
   Scene drawn = scene;
-  drawn.draw = {"chain", "ellipse"};
+  drawn.draw = drawn.named_layers = {"chain", "ellipse"};
   drawn.places["draw"] = {"scene.yaml", 3, 1};
   EXPECT_THAT(refusal_of(drawn), testing::AllOf(testing::HasSubstr("scene.yaml:3"), testing::HasSubstr("'ellipse'"),
                                                 testing::HasSubstr("`--set end_effector=NAME`"),
                                                 testing::HasSubstr("left, right")));
+  // The trail is not named by who edits the default layers.
+  Scene edited = read_scene(std::string(CHAINREEL_SOURCE_FOLDER) + "/assets/scenes/rr_free.yaml", {"draw=[+ghosts]"});
+  edited.model = scene.model;
+  edited.end_effector = "";
+  prepare(edited);
+  EXPECT_THAT(edited.draw, testing::AllOf(testing::Contains("ghosts"), testing::Not(testing::Contains("trail"))));
   Scene pushed = scene;
   pushed.torque = {{"x_G", {}, {}}, {"0", {}, {}}};
   EXPECT_THAT(refusal_of(pushed), testing::HasSubstr("x_G is of the end effector"));

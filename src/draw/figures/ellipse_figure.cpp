@@ -198,7 +198,7 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
   if (under != UnderPoses::named)
     text.legend = text.legend.substr(0, text.legend.find(": ")) +
                   (under == UnderPoses::masses ? ", eigenvalues of \u039B under each pose" : ", under each q: eigenvalues of \u039B");
-  if (options.cell > 0) text.legend += "; cut where longer than its cell" + (options.branch.empty() ? "" : ", " + options.branch);
+  if (options.cell > 0) text.legend += "; cut where longer than its cell, darker the longer" + (options.branch.empty() ? "" : ", " + options.branch);
   text.legend_size = size::kTick;
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts, height);

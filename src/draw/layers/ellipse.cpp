@@ -125,6 +125,12 @@ void draw_cut_edges(Picture& picture, Point center, Point along, double half_ang
       picture.add(Arc{center, style.disc, middle + side - half_angle + i * (1 + kGapOfDash) * dash, dash, style.lines * size::kEllipseAxis, style.theme->ellipse}, clip);
 }
 
+// Cut curves of one circle look alike: how far one leads beyond it is seen in its inside, by the decades of that.
+double fill_beyond(double length, double disc) {
+  constexpr double kMostFill = 0.42, kDecades = 2;  // opacity: lines on it keep a contrast of 3
+  return std::lerp(kEllipseFill, kMostFill, std::clamp(std::log10(length / disc) / kDecades, 0.0, 1.0));
+}
+
 // A curve of a field, which ends at the circle of its cell: the inside is cut there, lines fade over the last quarter of
 // the way. `v` may have no length.
 void draw_in_disc(Picture& picture, Point center, Point u, Point v, const EllipseStyle& style, int clip) {
@@ -152,7 +158,7 @@ void draw_in_disc(Picture& picture, Point center, Point u, Point v, const Ellips
   }
   for (const Point p : upper) lower.push_back(2 * center - p);
   const double width = style.lines * size::kEllipseLine;
-  if (b > kNoLength && style.is_filled) fill_between(picture, upper, lower, fill_of(style), Fade{style.scene}, clip);
+  if (b > kNoLength && style.is_filled) fill_between(picture, upper, lower, fill_of(style, style.dashed_cut ? fill_beyond(a, r) : kEllipseFill), Fade{style.scene}, clip);
   stroke(outline, width);
   for (Point& p : outline) p = -1 * p;
   stroke(outline, width);

@@ -71,6 +71,7 @@ void read_draw(Fields& fields, Scene& scene) {
   if (edits != 0 && edits != long(entries.size()))
     fields.problem_at("draw", "'draw' either lists layers or edits the default ones with +name and -name; do not mix the two");
   if (edits == 0) scene.draw.clear();
+  scene.named_layers.clear();
   for (const std::string& entry : entries) {
     const bool remove = entry.starts_with('-');
     const std::string name = remove || entry.starts_with('+') ? entry.substr(1) : entry;
@@ -78,7 +79,9 @@ void read_draw(Fields& fields, Scene& scene) {
       fields.problem_at("draw", "unknown layer '" + name + "' in 'draw':" + did_you_mean(name, words_of(layer_names())) +
                                  " `chainreel help layers` lists all.");
     std::erase(scene.draw, name);
-    if (!remove) scene.draw.push_back(name);
+    if (remove) continue;
+    scene.draw.push_back(name);
+    scene.named_layers.push_back(name);
   }
 }
 

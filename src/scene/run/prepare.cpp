@@ -198,9 +198,10 @@ void require_end_effector_of_layers(Scene& scene, const Chain& chain) {
   const auto needs_one = [&](const std::string& layer) {
     return layer_needs(layer, LayerNeeds::end_effector) || (layer_needs(layer, LayerNeeds::way) && !chain.has_floating);
   };
-  const auto first = std::find_if(scene.draw.begin(), scene.draw.end(), needs_one);
-  if (first == scene.draw.end()) return;
-  if (scene.places.contains("draw")) {
+  const auto first = std::find_if(scene.draw.begin(), scene.draw.end(), [&](const std::string& layer) {
+    return needs_one(layer) && std::ranges::count(scene.named_layers, layer) > 0;
+  });
+  if (first != scene.draw.end()) {
     try {
       require_end_effector(chain);
     } catch (const Error& error) {

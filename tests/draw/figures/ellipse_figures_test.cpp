@@ -384,7 +384,21 @@ TEST(Field, KeepsEachEllipseInItsCell) {
         EXPECT_LE(test::distance(piece->corners[std::size_t(i)], middle), side / 2);
   }
   EXPECT_THAT(test::words_of(picture), testing::Not(testing::HasSubstr("\u221E")));
-  EXPECT_THAT(test::words_of(picture), testing::HasSubstr("cut where longer than its cell, elbow down"));
+  EXPECT_THAT(test::words_of(picture), testing::HasSubstr("cut where longer than its cell, darker the longer, elbow down"));
+}
+
+// The nearer to a stretched arm, the longer the ellipse, of which a cell shows no more than of the others.
+TEST(Field, FillsCutEllipsesByTheirLength) {
+  PoseFigureOptions options;
+  options.cell = 0.4;
+  std::vector<std::vector<double>> poses;
+  for (const double q2 : {1.2, 1.4, 1.6, 1.8, 0.4, 0.2, 0.1}) poses.push_back({-0.5, q2});
+  const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, options, fonts());
+  std::vector<double> fills(poses.size());
+  for (const Item& item : picture.items)
+    if (const auto* piece = std::get_if<Polygon>(&item.shape); piece && item.clip > 0) fills[std::size_t(item.clip - 1)] = piece->paint.fill.a;
+  for (int whole = 0; whole < 4; ++whole) EXPECT_NEAR(fills[std::size_t(whole)], fills[0], 1e-12) << whole;
+  for (int cut = 4; cut < 7; ++cut) EXPECT_GT(fills[std::size_t(cut)], fills[std::size_t(cut == 4 ? 0 : cut - 1)] + 0.02) << cut;
 }
 
 // Below each of many poses stand its masses: at the axes they would stand twice. Speeds stand at the axes alone.
