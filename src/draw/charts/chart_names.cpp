@@ -14,6 +14,7 @@ constexpr double kNear = 2 * kClearance;
 constexpr double kAlone = 0.036;     // units of H: a curve that far from a name is not thought to be meant
 constexpr double kAloneEnd = 0.008;  // and from the dot of a leader
 constexpr double kLeaderLine = 0.0014, kLeaderDot = 0.0032, kLeaderOpacity = 0.7;
+constexpr double kBetweenNames = 0.018;  // else two read as one
 constexpr double kBesideLeader = 0.006, kOffLeader = 0.012;
 constexpr std::array kLeaderLengths = {0.025, 0.04, 0.055, 0.07, 0.085, 0.1, 0.12, 0.14};
 constexpr int kLeaderWays = 24;
@@ -92,7 +93,7 @@ bool runs_through(const GreyPlace& place, const Rect& box) {
 }
 
 bool do_collide(const GreyPlace& a, const GreyPlace& b) {
-  return overlap(widened(a.box, kClearance), b.box) || runs_through(a, b.box) || runs_through(b, a.box) ||
+  return overlap(widened(a.box, kBetweenNames), b.box) || runs_through(a, b.box) || runs_through(b, a.box) ||
          (a.has_leader() && b.has_leader() && segments_meet(a.dot, a.foot, b.dot, b.foot));
 }
 
