@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNear = 2 * kClearance;
 constexpr double kAlone = 0.036;     // units of H: a curve that far from a name is not thought to be meant
-constexpr double kAloneEnd = 0.008;  // and from the dot of a leader
+constexpr double kAloneEnd = 0.008;  // and from a leader
 constexpr double kLeaderLine = 0.0014, kLeaderDot = 0.0032, kLeaderOpacity = 0.7;
 constexpr double kBetweenNames = 0.018;  // else two read as one
 constexpr double kBesideLeader = 0.006, kOffLeader = 0.012;
@@ -97,11 +97,16 @@ bool do_collide(const GreyPlace& a, const GreyPlace& b) {
          (a.has_leader() && b.has_leader() && segments_meet(a.dot, a.foot, b.dot, b.foot));
 }
 
-// Whether a leader from a point of a curve crosses neither others nor this again, and no word.
+double between(Point a, Point b, Point c, Point d) {
+  return segments_meet(a, b, c, d) ? 0 : std::min({distance_to(a, c, d), distance_to(b, c, d), distance_to(c, a, b), distance_to(d, a, b)});
+}
+
+// Whether a leader from a point of a curve keeps off others, comes not to this one again, and runs through no word.
 bool is_clear(const GreyPlace& place, const Obstacles& obstacles, int curve) {
   const Point off = place.dot + kNear / 2 * unit(place.foot - place.dot);
   return std::ranges::none_of(obstacles.lines, [&](const Obstacles::Line& line) {
-           return line.curve != kNoCurve && segments_meet(line.curve == curve ? off : place.dot, place.foot, line.a, line.b);
+           return line.curve != kNoCurve && (line.curve == curve ? segments_meet(off, place.foot, line.a, line.b)
+                                                                 : between(place.dot, place.foot, line.a, line.b) < kAloneEnd);
          }) &&
          std::ranges::none_of(obstacles.boxes, [&](const Rect& box) { return runs_through(place, box); });
 }
@@ -116,7 +121,6 @@ std::vector<GreyPlace> places_of(const Word& word, const std::vector<Point>& poi
       const Rect box = word.box_at(at + by);
       if (obstacles.is_free(box) && is_alone(widened(box, kAlone), obstacles, curve)) places.push_back({at + by, box, at, at, of_point});
     }
-    if (!is_alone(widened({at.x, at.y, at.x, at.y}, kAloneEnd), obstacles, curve)) continue;
     for (const double length : kLeaderLengths)
       for (int k = 0; k < kLeaderWays; ++k) {
         const double angle = 2 * std::numbers::pi * k / kLeaderWays;
@@ -206,6 +210,11 @@ void draw_grey_names(Picture& picture, const PlotFrame& frame, const WorkPrecisi
                      const ChartLook& look) {
   std::vector<Word> words;
   std::vector<std::vector<GreyPlace>> places;
+  // From the ends of curves in colour lines lead to their names, to the right.
+  for (std::size_t k = 0; k < data.curves.size(); ++k) {
+    const std::vector<Point> points = data.curves[k].is_lit ? shown_points(frame, data.curves[k], cost) : std::vector<Point>();
+    if (!points.empty()) obstacles.lines.push_back({points.back(), {frame.box.x1, points.back().y}, int(k)});
+  }
   for (std::size_t k = 0; k < data.curves.size(); ++k) {
     if (data.curves[k].is_lit) continue;
     words.emplace_back(name_of(data.curves[k]), look.theme->muted, look);
