@@ -18,6 +18,7 @@ constexpr double kPitchY = 3.0, kLeastPitchY = 1.3;  // of the em, along y
 constexpr double kLeastAcross = 0.85;  // of the em: numbers that are nearer along y lie on one another
 constexpr int kFewestLabels = 3, kMostLinear = 5, kMostLog = 6, kMostThinned = 9;
 constexpr std::size_t kFewestOfScale = 2;
+constexpr double kDecadeApart = 0.011;  // units of H: ticks of decades without a number that stand closer are a comb
 constexpr double kLeastAir = 0.3;  // of the em, between two numbers below a frame
 constexpr double kLastAir = 0.6;  // of the em, before the last number with its unit
 
@@ -79,6 +80,22 @@ std::vector<Tick> thinned_ticks(const Axis& axis, double length, double pitch) {
   return ticks;
 }
 
+// Of decades without a number as many as stand apart, at even steps between those that have one.
+std::vector<Tick> without_comb(std::vector<Tick> ticks, const Axis& axis, double length) {
+  if (axis.scale != Scale::log || !axis.at.empty()) return ticks;
+  const auto exponent = [](const Tick& tick) { return std::lround(std::log10(tick.value)); };
+  const double decade = length / (std::log10(axis.high) - std::log10(axis.low));
+  const auto is_labelled = [](const Tick& tick) { return !tick.label.empty(); };
+  const auto first = std::ranges::find_if(ticks, is_labelled);
+  const auto second = first == ticks.end() ? first : std::find_if(first + 1, ticks.end(), is_labelled);
+  if (!(decade < kDecadeApart) || second == ticks.end()) return ticks;
+  const long stride = exponent(*second) - exponent(*first);
+  long step = 1;
+  while (step < stride && (stride % step != 0 || double(step) * decade < kDecadeApart)) ++step;
+  std::erase_if(ticks, [&](const Tick& tick) { return tick.label.empty() && exponent(tick) % step != 0; });
+  return ticks;
+}
+
 // At most so many, but at least three where a finer step has them and they stand `pitch` apart on the axis' `length`.
 std::vector<Tick> enough_ticks(const Axis& axis, int most, double length, double pitch) {
   std::vector<Tick> ticks = ticks_of(axis, most);
@@ -89,7 +106,8 @@ std::vector<Tick> enough_ticks(const Axis& axis, int most, double length, double
     if (step / (axis.high - axis.low) * length < pitch) break;
     ticks = std::move(finer);
   }
-  return ticks.size() < kFewestOfScale && axis.scale != Scale::log ? thinned_ticks(axis, length, pitch) : ticks;
+  if (axis.scale == Scale::log) return without_comb(std::move(ticks), axis, length);
+  return ticks.size() < kFewestOfScale ? thinned_ticks(axis, length, pitch) : ticks;
 }
 
 Tick last_tick(const Axis& axis) {

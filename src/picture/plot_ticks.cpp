@@ -120,13 +120,22 @@ int multiples_between(int first, int last, int stride) {
   return count;
 }
 
+// Of decades: 1, 2, 3, 4, 5, 6, 10, 20, 30, 50, 100, ..
+int next_stride(int stride) {
+  int of_ten = 1;
+  while (stride >= 10 * of_ten) of_ten *= 10;
+  const int digit = stride / of_ten;
+  if (of_ten == 1) return digit < 6 ? digit + 1 : 10;
+  return of_ten * (digit < 3 ? digit + 1 : digit < 5 ? 5 : 10);
+}
+
 std::vector<Tick> log_ticks(const Axis& axis, int most) {
   if (!(axis.low > 0) || !(axis.high > axis.low) || !std::isfinite(axis.high)) return {};
   const double low = std::log10(axis.low), high = std::log10(axis.high);
   if (high - low < kDecadesOfPlainTicks) return plain_log_ticks(axis);
   const int first = int(std::ceil(low - kSlack)), last = int(std::floor(high + kSlack));
   int stride = 1;
-  while (multiples_between(first, last, stride) > most) ++stride;
+  while (multiples_between(first, last, stride) > most) stride = next_stride(stride);
 
   std::vector<Tick> ticks;
   for (int exponent = first - 1; exponent <= last; ++exponent) {

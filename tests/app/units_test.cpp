@@ -6,7 +6,11 @@
 #include <filesystem>
 #include <numbers>
 
+#include "app/sweep/map_axes.hpp"
 #include "core/json.hpp"
+#include "model/model_description.hpp"
+#include "scene/run/prepare.hpp"
+#include "scene/text/read_scene.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -216,6 +220,29 @@ TEST_F(Units, WordsAreTakenAsTheyStand) {
   EXPECT_EQ(title("\"Push: falls\""), "Push: falls") << "in quotes as YAML has it";
   EXPECT_EQ(title("plain"), "plain");
   expect_refused({"start.q=[0: 1"}, "is not valid YAML");
+}
+
+// Axes have the units of keys, of coordinates, and of parameters where expressions of torque leave but one.
+TEST(UnitsOfAxes, AreToldWhereTheyAreKnown) {
+  const TemporaryFolder folder;
+  const auto title = [&](const std::string& model, const std::string& torque, const std::string& key) {
+    Scene scene = read_scene(folder.write("a.yaml", "model: " + kModels + model + "\nduration: 1\nparameters: {k: 1, w: 2}\ntorque: " + torque + "\n"));
+    const Sweep sweep = with_unit_of_parameter(scene, {key, {"1", "2"}, {1, 2}});
+    return title_of_axis(with_unit_of(prepare(scene, false).chain, sweep));
+  };
+  EXPECT_EQ(title("pp.urdf", "[0, 0]", "step"), "step [s]");
+  EXPECT_EQ(title("pp.urdf", "[0, 0]", "payload.mass"), "payload [kg]");
+  EXPECT_EQ(title("pp.urdf", "[0, 0]", "duration"), "duration [s]");
+  EXPECT_EQ(title("pp.urdf", "[0, 0]", "gravity.2"), "gravity.2 [m/s\u00B2]");
+  EXPECT_EQ(title("pp.urdf", "[0, 0]", "torque.1"), "torque.1 [N]");
+  EXPECT_EQ(title("rr.urdf", "[0, 0]", "torque.1"), "torque.1 [N m]");
+  EXPECT_EQ(title("rr.urdf", "{pd: {kp: [1, 2], kd: 1, q: [0, 0]}}", "torque.pd.kp.2"), "torque.pd.kp.2 [N m/rad]");
+  for (const auto& [torque, unit] : {std::pair<const char*, const char*>{"[0, -k * y_G]", " [N/m]"}, {"[-k * qd1, -k * qd2]", " [N s/m]"}, {"[k, 0]", " [N]"},
+                                     {"[sin(k * t), 0]", ""}, {"[w * sin(k * t), 0]", ""}, {"[-100 * k * y_G, 0]", ""}, {"[-k * y_G + k, 0]", ""}, {"[0, 0]", ""}})
+    EXPECT_EQ(title("pp.urdf", torque, "parameters.k"), std::string("k") + unit) << torque;
+  for (const auto& [torque, unit] : {std::pair<const char*, const char*>{"[-k * q1, 0]", " [N m/rad]"}, {"[0, -2 * k * qd2]", " [N m s/rad]"}, {"[k * sin(q1), 0]", " [N m]"},
+                                     {"[k * y_G, 0]", " [N]"}})
+    EXPECT_EQ(title("rr.urdf", torque, "parameters.k"), std::string("k") + unit) << torque;
 }
 
 }  // namespace

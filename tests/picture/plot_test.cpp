@@ -118,6 +118,26 @@ TEST(Ticks, LogAxesLabelThreeToSixDecadesHoweverLong) {
               ElementsAre("10^\u22123", "10^\u22122", "10^\u22121", "1", "10", "10^2"));
 }
 
+// A tick for each of hundreds of decades would be a comb; numbers stand at round powers with one step.
+TEST(Ticks, OfHundredsOfDecadesStandApartAtRoundPowers) {
+  EXPECT_THAT(labels({Scale::log, 1e-300, 1e300}, 6), ElementsAre("10^\u2212200", "1", "10^200"));
+  EXPECT_THAT(labels({Scale::log, 1e-5, 1e70}, 6), ElementsAre("1", "10^20", "10^40", "10^60"));
+  for (const double decades : {18.0, 75.0, 140.0, 301.0, 590.0}) {
+    const PlotStyle style = style_of();
+    const Axis axis{Scale::log, 1e-295, std::pow(10.0, decades - 295)};
+    const PlotFrame frame = lay_out_plot({0.1, 0.1, 0.9, 0.7}, axis, axis, style);
+    Picture picture;
+    draw_axes(picture, frame, style);
+    std::vector<double> ticks;  // left of the frame
+    for (const Capsule& line : all_of<Capsule>(picture))
+      if (line.a.y == line.b.y && std::min(line.a.x, line.b.x) < frame.box.x0 - 1e-6) ticks.push_back(line.a.y);
+    std::ranges::sort(ticks);
+    ASSERT_GE(ticks.size(), 10u) << decades;
+    for (std::size_t i = 1; i < ticks.size(); ++i) EXPECT_GT(ticks[i] - ticks[i - 1], 0.01) << decades;
+    EXPECT_NEAR(ticks[2] - ticks[1], ticks[1] - ticks[0], 1e-9) << decades;
+  }
+}
+
 TEST(Ticks, ShortLogAxesLabelOneTwoFive) {
   EXPECT_THAT(labels({Scale::log, 0.5, 5}, 6), ElementsAre("0.5", "1", "2", "5"));
 }

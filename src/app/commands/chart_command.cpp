@@ -116,12 +116,12 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   return measured;
 }
 
-// What the error of a rung is: "the larger of q's and 0.13 s times qd's, the largest along the run"
+// What the error of a rung is; of which instants, an axis says: "larger of q's and 0.13 s times qd's at 50 instants"
 std::string error_text(const Measured& measured, Judged judged) {
-  if (judged == Judged::energy) return "of the energy, the largest at the end of any step, and within steps where it is a tenth of the motion's";
-  const std::string larger = "the larger of q's and " + format_significant(measured.reference.run.qd_scale, 2) + " s \u00D7 qd's";
-  if (judged == Judged::final) return larger + ", at the end of the run";
-  return larger + ", the largest at " + std::to_string(measured.reference.run.t.size()) + " instants along the run";
+  if (judged == Judged::energy) return "of the energy, the largest at the ends of steps and, where it is a tenth of the motion's, within them";
+  const std::string larger = "larger of q's and " + format_significant(measured.reference.run.qd_scale, 2) + " s \u00D7 qd's";
+  if (judged == Judged::final) return larger;
+  return larger + " at " + std::to_string(measured.reference.run.t.size()) + " instants";
 }
 
 WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOptions& options) {
@@ -239,7 +239,9 @@ void print_summary(const WorkPrecision& data, const Measured& measured, const Ch
                 data.is_least_of_reference() ? "to which the reference is known" : "to which the motion magnifies one rounding");
   for (const Ladder& ladder : measured.ladders)
     if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
-  std::printf("error: %s; of the pictures of a film, in the unit of `accuracy`: `chainreel check SCENE --all`\n", error_text(measured, options.judged()).c_str());
+  constexpr std::array kWhen = {", the largest along the run", ", at the end of the run", ""};  // of kErrors
+  std::printf("error: %s%s; of the pictures of a film, in the unit of `accuracy`: `chainreel check SCENE --all`\n", error_text(measured, options.judged()).c_str(),
+              kWhen[std::size_t(options.judged())]);
   std::printf("reference: %s, uncertainty %s; the motion magnifies errors %s times\n",
               measured.reference.how.c_str(), format_significant(options.judged() == Judged::final ? measured.reference.final_uncertainty : measured.reference.uncertainty, 2).c_str(),
               format_significant(measured.reference.amplification, 2).c_str());

@@ -260,9 +260,10 @@ ResponseChart chart_of(const FallTable& table, const Scene& scene) {
   ResponseChart chart;
   chart.title = "When does it fall?";
   chart.subtitle = scene.name + ", " + std::to_string(table.rows.size()) + " runs of " + format_quantity(table.duration, "s") + ", " + table.method;
-  chart.x = curve_axis_of(table.sweep);
+  const Sweep sweep = with_unit_of_parameter(scene, table.sweep);
+  chart.x = curve_axis_of(sweep);
   ResponsePanel instants{"instant [s]", true, {}};
-  const double degrees = degrees_of(table.sweep);
+  const double degrees = degrees_of(sweep);
   ResponseCurve falls{"down", {}}, tips{"foot tips", {}};
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const FallRow& row = table.rows[i];

@@ -120,9 +120,9 @@ std::string unknown_text(const StabilityCells& cells) {
   return unknown == 0 ? "" : " The energy of the motion is not known of " + std::to_string(unknown) + (unknown == 1 ? " cell, which is pale." : " cells, which are pale.");
 }
 
-// The unit of the coordinate along an axis, which only its model knows.
+// With the unit of what is along it, which only its model and expressions know.
 Axis stability_axis(Scene scene, const Sweep& sweep) {
-  return map_axis(with_unit_of(prepare(scene, false).chain, sweep));
+  return map_axis(with_unit_of(prepare(scene, false).chain, with_unit_of_parameter(scene, sweep)));
 }
 
 StabilityMap map_of(const Scene& scene, const StabilityCells& cells) {

@@ -7,15 +7,30 @@
 #include <optional>
 #include <utility>
 
+#include "app/sweep/parameter_unit.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "model/model_description.hpp"
+#include "scene/keys/keys.hpp"
+#include "scene/run/prepare.hpp"
+#include "table/data_table.hpp"
 
 namespace chainreel {
 
+namespace {
+
+// As the table of keys has it, where that is one unit; "": none, or one that the model knows.
+std::string unit_of_key(const std::string& key) {
+  const SceneKey* const row = find_key(key);
+  std::string unit = row != nullptr && row->unit.find(" or ") == std::string::npos ? row->unit : "";
+  if (const std::size_t square = unit.find("^2"); square != std::string::npos) unit.replace(square, 2, "\u00B2");
+  return unit;
+}
+
+}  // namespace
+
 std::string title_of_key(const std::string& key) {
-  if (key == "step") return "step [s]";
-  if (key == "payload.mass") return "payload [kg]";
+  if (key == "payload.mass") return with_unit("payload", unit_of_key(key));
   if (key.starts_with("push.") && key.find("force.") != std::string::npos) return "push, force " + key.substr(key.rfind('.') + 1) + " [N]";
   for (const std::string prefix : {"parameters.", "start.q.", "start.qd."}) {
     if (!key.starts_with(prefix)) continue;
@@ -25,23 +40,37 @@ std::string title_of_key(const std::string& key) {
     const bool is_number = rest.find_first_not_of("0123456789") == std::string::npos;
     return is_number ? "$" + symbol + rest + "(0)$" : (symbol == "q" ? "" : "rate of ") + rest + " at t = 0";
   }
-  return key;
+  return with_unit(key, unit_of_key(key));
 }
 
 std::string title_of_axis(const Sweep& sweep) {
   const std::string title = title_of_key(sweep.key);
-  return sweep.unit.empty() || title.ends_with(']') ? title : title + " [" + sweep.unit + "]";
+  return title.ends_with(']') ? title : with_unit(title, sweep.unit);
 }
 
 Sweep with_unit_of(const Chain& chain, Sweep sweep) {
-  for (const auto& [prefix, per] : {std::pair<std::string, const char*>{"start.q.", ""}, {"start.qd.", "/s"}}) {
-    if (!sweep.unit.empty() || !sweep.key.starts_with(prefix)) continue;
-    const std::optional<double> number = parse_number(sweep.key.substr(prefix.size()));
+  struct OfCoordinate {
+    std::string prefix;
+    const char *of_angle, *of_length;
+  };
+  static const std::vector<OfCoordinate> kOf{{"start.q.", "rad", "m"}, {"start.qd.", "rad/s", "m/s"}, {"torque.", "N m", "N"},
+                                             {"torque.pd.kp.", "N m/rad", "N/m"}, {"torque.pd.kd.", "N m s/rad", "N s/m"}};
+  for (const OfCoordinate& of : kOf) {
+    if (!sweep.unit.empty() || !sweep.key.starts_with(of.prefix)) continue;
+    const std::optional<double> number = parse_number(sweep.key.substr(of.prefix.size()));
     const std::vector<DescribedCoordinate> coordinates = coordinates_of(chain);
     const bool is_one = number && *number >= 1 && *number <= double(coordinates.size());
     const std::string unit = is_one ? coordinates[std::size_t(*number) - 1].unit : "";
-    if (!unit.empty()) sweep.unit = unit + per;
+    if (unit == "rad" || unit == "m") sweep.unit = unit == "rad" ? of.of_angle : of.of_length;
   }
+  return sweep;
+}
+
+Sweep with_unit_of_parameter(Scene scene, Sweep sweep) {
+  const std::string prefix = "parameters.";
+  if (!sweep.unit.empty() || !sweep.key.starts_with(prefix)) return sweep;
+  const Chain chain = prepare(scene, false).chain;
+  sweep.unit = unit_of_parameter(chain, scene, sweep.key.substr(prefix.size()));
   return sweep;
 }
 

@@ -6,14 +6,17 @@
 #include "model/chain.hpp"
 #include "picture/plot.hpp"
 #include "scene/run/sweep.hpp"
+#include "scene/scene.hpp"
 
 namespace chainreel {
 
 // What an axis calls a key: "step [s]", a parameter by its name, q2(0) for start.q.2.
 std::string title_of_key(const std::string& key);
 std::string title_of_axis(const Sweep& sweep);  // with the unit that its range has: "$q1(0)$ [rad]"
-// The same with the unit of the coordinate that the model knows where the range has none.
+// The same with the unit of the coordinate, its torque or its gain, which the model knows, where the range has none.
 Sweep with_unit_of(const Chain& chain, Sweep sweep);
+// ... and of a parameter, which expressions tell.
+Sweep with_unit_of_parameter(Scene scene, Sweep sweep);
 // Cells are centred on the values: half a cell beyond the first and the last.
 Axis map_axis(const Sweep& sweep);
 // By what its numbers are shown: angles are read in degrees.

@@ -178,7 +178,7 @@ void require_map_column(const std::vector<std::string>& names, const Grid& grid,
 }
 
 StabilityMap sweep_map(const Grid& grid, const Scene& scene, const std::string& path, const std::vector<std::string>& last, const std::string& wanted) {
-  const Sweep &x = grid.axes()[0], &y = grid.axes()[1];
+  const Sweep x = with_unit_of_parameter(scene, grid.axes()[0]), y = with_unit_of_parameter(scene, grid.axes()[1]);
   StabilityMap map;
   map.nx = int(x.values.size());
   map.ny = int(y.values.size());
@@ -226,7 +226,7 @@ std::string title_of_quantity(const std::vector<std::string>& names, const std::
 }  // namespace
 
 ResponseChart sweep_curves(const Grid& grid, const Scene& scene, const std::string& path, const std::vector<std::string>& last, const std::string& wanted) {
-  const Sweep& x = grid.axes().front();
+  const Sweep x = with_unit_of_parameter(scene, grid.axes().front());
   ResponseChart chart;
   std::vector<Quantity> quantities;
   std::vector<ResponseCurve> curves;  // of all columns

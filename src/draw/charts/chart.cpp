@@ -20,7 +20,7 @@ constexpr double kZonePad = 0.012;
 constexpr double kWidestZone = 0.34;  // of the panel
 constexpr double kZoneOpacity = 0.14;
 // What lies to the left of the least error that says something.
-constexpr const char* kGuidesWords = "dotted: 1, 10, 100 times the cheapest run";
+constexpr const char* kGuidesWords = "dotted: 1, 10, 100 times the cheapest";
 constexpr const char* kRoundingWords = "under the growth of one rounding";
 constexpr const char* kReferenceWords = "under what the reference is known to";
 
@@ -228,13 +228,13 @@ std::string footer_of(const WorkPrecision& data, bool triangles) {
   if (data.is_least_of_reference())
     add("shaded: " + of_reference());
   else if (data.floor > 0)
-    add("shaded: the problem's amplification times 2\u207B\u2075\u00B3 is " + format_power(data.floor));
+    add("shaded: rounding grows to " + format_power(data.floor));
   if (data.reference_uncertainty > 0 && !data.is_least_of_reference()) add(of_reference());
   add(kGuidesWords);
   if (triangles) add("triangles: slope of an order");
   const auto others = std::ranges::count_if(data.curves, [](const ChartCurve& curve) { return !curve.is_lit; });
-  if (others) add(std::to_string(others) + (others == 1 ? " other" : " others") + ", grey: --highlight names them");
-  if (any_failed(data)) add("crosses at the right edge: runs that failed or are lost");
+  if (others) add(std::to_string(others) + (others == 1 ? " other" : " others") + ", grey: --highlight");
+  if (any_failed(data)) add("crosses: failed or lost");
   add(data.machine);
   return text;
 }

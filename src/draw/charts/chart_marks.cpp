@@ -7,9 +7,9 @@
 #include <set>
 
 #include "draw/charts/chart.hpp"
+#include "draw/charts/chart_names.hpp"
 #include "draw/charts/lit_colours.hpp"
 #include "draw/charts/obstacles.hpp"
-#include "picture/formula_words.hpp"
 #include "picture/point.hpp"
 
 namespace chainreel {
@@ -256,91 +256,7 @@ void draw_choice(Picture& picture, const PlotFrame& frame, const WorkPrecision& 
   obstacles.boxes.push_back({best.x - half, best.y, best.x + half, best.y + em});
 }
 
-// --- words at the ends of curves ---
-
-// So far from a point, where neither curves nor other words are; else nowhere. Returns whether it stands.
-constexpr double kNear = 2 * kClearance;
-bool draw_word_beside(Picture& picture, const std::string& text, Color color, Point at, Obstacles& obstacles, const ChartLook& look, double off = kNear) {
-  if (text.empty()) return true;
-  const double em = look.plot_style().text(size::kTick);
-  const TextLine line = lay_out_text(*look.fonts, text, {Face::label, em, color, Align::left});
-  const double wide = line.advance, high = kCapHeight * em;
-  for (const Point corner : {Point{off, -high / 2}, {-off - wide, -high / 2}, {-wide / 2, off}, {-wide / 2, -off - high}, {off, off},
-                             {off, -off - high}, {-off - wide, off}, {-off - wide, -off - high}}) {
-    const Point p = at + corner;
-    const Rect box{p.x, p.y - 0.2 * em, p.x + wide, p.y + em};
-    if (!obstacles.is_free(box)) continue;
-    draw_text(picture, line, p);
-    obstacles.boxes.push_back(box);
-    return true;
-  }
-  return false;
-}
-
-// Of a curve the points that a frame shows, the most exact one first.
-std::vector<const ChartPoint*> shown_points(const PlotFrame& frame, const ChartCurve& curve, ChartCost cost) {
-  std::vector<const ChartPoint*> points;
-  for (const ChartPoint& point : curve.points)
-    if (!point.failed && !point.is_apart && point.error >= frame.x.low && frame.can_show({point.error, cost_of(point, cost)})) points.push_back(&point);
-  std::ranges::stable_sort(points, {}, &ChartPoint::error);
-  return points;
-}
-
-// Beside one of its points. Returns whether it stands.
-bool draw_name(Picture& picture, const PlotFrame& frame, const ChartCurve& curve, ChartCost cost, Color color, Obstacles& obstacles, const ChartLook& look, double off = kNear) {
-  const std::string name = without_formulas(curve.title.empty() ? curve.method : curve.title);
-  const std::vector<const ChartPoint*> points = shown_points(frame, curve, cost);
-  return points.empty() || std::ranges::any_of(points, [&](const ChartPoint* point) {
-           return draw_word_beside(picture, name, color, frame.at({point->error, cost_of(*point, cost)}), obstacles, look, off);
-         });
-}
-
-Color color_of(const WorkPrecision& data, std::size_t curve, const ChartLook& look) {
-  const int index = data.curves[curve].look;
-  return curve_style(index < 0 ? int(curve) : index, *look.theme).color;
-}
-
-// Colour ties them to curves from a line away, too: beside a flat one no nearer place is free. Returns whether all stand.
-bool draw_names_in_colour(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, Obstacles& obstacles, const ChartLook& look) {
-  const double em = look.plot_style().text(size::kTick);
-  bool all = true;
-  for (std::size_t k = 0; k < data.curves.size(); ++k)
-    all &= !data.curves[k].is_lit || std::ranges::any_of(std::array{kNear, kNear + 0.4 * em, kNear + em}, [&](double off) {
-      return draw_name(picture, frame, data.curves[k], cost, color_of(data, k, look), obstacles, look, off);
-    });
-  return all;
-}
-
-// With which steps or tolerances highlighted curves begin and end; and the names of the others, since
-// grey does not tell them apart, as near to their most exact ends as there is room.
-void draw_end_words(Picture& picture, const PlotFrame& frame, const WorkPrecision& data, ChartCost cost, Obstacles& obstacles,
-                    const ChartLook& look) {
-  for (const bool lit : {true, false})
-    for (std::size_t k = 0; k < data.curves.size(); ++k) {
-      const ChartCurve& curve = data.curves[k];
-      const std::vector<const ChartPoint*> points = shown_points(frame, curve, cost);
-      if (curve.is_lit != lit || points.empty()) continue;
-      if (!lit) {
-        draw_name(picture, frame, curve, cost, look.theme->muted, obstacles, look);
-        continue;
-      }
-      const auto draw_setting = [&](const ChartPoint& point) {
-        draw_word_beside(picture, setting_of(point.label), color_of(data, k, look), frame.at({point.error, cost_of(point, cost)}), obstacles, look);
-      };
-      draw_setting(*points.front());
-      if (points.size() > 1) draw_setting(*points.back());
-    }
-}
-
 }  // namespace
-
-std::string setting_of(const std::string& label) {
-  const std::size_t comma = label.rfind(", ");
-  std::string text = comma == std::string::npos ? label : label.substr(comma + 2);
-  for (const auto& [word, shorter] : {std::pair{"step ", "h = "}, {"tolerance ", "tol. "}})
-    if (text.starts_with(word)) text.replace(0, std::string(word).size(), shorter);
-  return text;
-}
 
 double cost_of(const ChartPoint& point, ChartCost cost) {
   return cost == ChartCost::seconds ? point.seconds : point.evaluations;
@@ -385,7 +301,8 @@ DrawnMarks draw_marks(Picture& picture, const PlotFrame& frame, const WorkPrecis
   if (names_inside) drawn.names_stand = draw_names_in_colour(picture, frame, data, cost, obstacles, look);
   drawn.triangles = draw_slopes(picture, frame, data, cost, obstacles, look);
   draw_guide_words(picture, frame, best, obstacles, look);
-  draw_end_words(picture, frame, data, cost, obstacles, look);
+  draw_settings(picture, frame, data, cost, obstacles, look);
+  draw_grey_names(picture, frame, data, cost, obstacles, look);
   return drawn;
 }
 

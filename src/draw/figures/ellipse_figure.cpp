@@ -3,6 +3,7 @@
 #include "draw/figures/ellipse_figure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -195,9 +196,8 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
   text.legend = ellipse_legend(options.reading, chain.planar      ? EllipseBody::flat
                                                 : options.section ? EllipseBody::section
                                                                   : EllipseBody::solid);
-  if (under != UnderPoses::named)
-    text.legend = text.legend.substr(0, text.legend.find(": ")) +
-                  (under == UnderPoses::masses ? ", eigenvalues of \u039B under each pose" : ", under each q: eigenvalues of \u039B");
+  constexpr std::array kUnder = {"", ", \u039B\u1D62: eigenvalues of \u039B", ", eigenvalues of \u039B under each pose", ", under each q \u039B\u1D62: eigenvalues of \u039B", ", under each q: eigenvalues of \u039B"};
+  if (under != UnderPoses::named) text.legend = text.legend.substr(0, text.legend.find(": ")) + kUnder[std::size_t(under)];
   if (options.cell > 0) text.legend += "; cut where longer than its cell, darker the longer" + (options.branch.empty() ? "" : ", " + options.branch);
   text.legend_size = size::kTick;
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,

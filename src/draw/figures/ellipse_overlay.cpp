@@ -267,7 +267,7 @@ struct Overlay {
     for (const std::vector<std::size_t>& group : groups) {
       const std::size_t i = group.front();
       places.push_back(place_of(poses[i], scene));
-      places.back().name = label_of(group);
+      places.back().name = label_of(group, Align::left);
       for (const LinkSegment& link : options.shapes ? std::vector<LinkSegment>() : skeleton.links)
         bars.push_back({camera.project(pose_of(ws, link.body) * link.from), camera.project(pose_of(ws, link.body) * link.to),
                         size::kLinkWidth / 2});
@@ -278,7 +278,9 @@ struct Overlay {
     for (const PlacedName& one : placed) plan.push_back(one.word);
     MarkLabels labels(plan);
     for (std::size_t i = 0; i < places.size(); ++i) {
-      MarkWord word{"pose", places[i].name, {placed[i].word.box}};
+      const Rect& box = placed[i].word.box;
+      const bool ends_at_line = placed[i].has_leader && (box.x0 + box.x1) / 2 < placed[i].to.x;
+      MarkWord word{"pose", ends_at_line ? label_of(groups[i], Align::right) : places[i].name, {box}};
       if (placed[i].has_leader) word.leader = Leader{placed[i].to, options.theme->ink};
       labels.add(std::move(word));
     }
@@ -307,7 +309,8 @@ struct Overlay {
   }
 
   // By the names of all that look so; else by the pose. Below it the masses, where its axes do not tell them.
-  TextLine label_of(const std::vector<std::size_t>& group) const {
+  // Both end at the right where a line to the pose begins there, so that it meets either.
+  TextLine label_of(const std::vector<std::size_t>& group, Align align) const {
     const TextStyle style{Face::label, scaled(size::kAxis, options.text_scale), options.theme->ink, Align::left};
     std::vector<std::string> names;
     for (const std::size_t i : group)
@@ -317,13 +320,17 @@ struct Overlay {
     if (!names_masses) return label;
     const TextStyle small{Face::label, scaled(size::kTick, options.text_scale), options.theme->ellipse, Align::left};
     TextLine masses = lay_out_text(fonts, masses_of(pose), small);
-    const Point below{0, -kMassesPitch * style.size};
-    for (GlyphRun& run : masses.runs) {
-      run.origin = run.origin + below;
-      label.runs.push_back(std::move(run));
-    }
-    label.box = around(label.box, moved(masses.box, below));
-    label.advance = std::max(label.advance, masses.advance);
+    const double wide = std::max(label.advance, masses.advance);
+    const auto moved_by = [](TextLine& line, Point by) {
+      for (GlyphRun& run : line.runs) run.origin = run.origin + by;
+      line.box = moved(line.box, by);
+    };
+    const bool is_right = align == Align::right && label.marks.empty();
+    moved_by(masses, {is_right ? wide - masses.advance : 0, -kMassesPitch * style.size});
+    moved_by(label, {is_right ? wide - label.advance : 0, 0});
+    label.runs.insert(label.runs.end(), masses.runs.begin(), masses.runs.end());
+    label.box = around(label.box, masses.box);
+    label.advance = wide;
     return label;
   }
 

@@ -18,9 +18,10 @@ constexpr double kOff[] = {0.022, 0.04, 0.06, 0.09, 0.13, 0.18, 0.24};  // units
 constexpr int kRounds = 20;
 constexpr double kBetweenNumbers = 0.8;  // of their height
 constexpr double kAirOfName = 0.010, kTipAir = 0.010;  // units of H, around a name and a tip
+constexpr double kOtherCurve = 0.025;  // a name that is so near to the curve of another would be taken for that one's
 // What a name pays for what it does, inwards from the middle of all tips at most kInward: for a unit it goes 0.1 H farther to
 // avoid it.
-constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 2, kOnLine = 2, kOnBar = 0.5, kInward = 0.3, kPerH = 10;
+constexpr double kOnName = 50, kCrossing = 8, kOnTip = 8, kOnCurve = 2, kBesideCurve = 1, kOnLine = 2, kOnBar = 0.5, kInward = 0.3, kPerH = 10;
 constexpr double kAtEnd = 0.1;  // of a name at an end of its curve
 constexpr double kLeastAtEnd = 0.03;  // units of H: a shorter leader to an end of a curve would be a blot on it
 constexpr double kOutward = 0.3;  // cosine: there it stands no farther aside
@@ -105,7 +106,10 @@ std::vector<Candidate> candidates_of(std::size_t i, std::span<const NamedPlace> 
         Candidate one{box, nearest_in(box, anchor.at), anchor.at, anchor.outward ? kAtEnd : 0};
         one.cost += kPerH * norm(anchor.at - one.foot) + kInward * (1 - dot(way, outward)) / 2;
         for (std::size_t j = 0; j < places.size(); ++j) {
-          if (is_on_curve(widened(box, kAirOfName / 2), places[j])) one.cost += kOnCurve;
+          if (is_on_curve(widened(box, kAirOfName / 2), places[j]))
+            one.cost += kOnCurve;
+          else if (j != i && is_on_curve(widened(box, kOtherCurve), places[j]))
+            one.cost += kBesideCurve;
           if (j == i || norm(places[j].tip - own.tip) < kTipAir) continue;
           if (norm(places[j].tip - nearest_in(box, places[j].tip)) < kTipAir) one.cost += kOnTip;
           if (distance_to(places[j].tip, one.foot, anchor.at) < kTipAir) one.cost += kCrossing;

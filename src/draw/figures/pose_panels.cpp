@@ -1,6 +1,7 @@
 #include "draw/figures/pose_panels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/format.hpp"
@@ -133,18 +134,19 @@ void write_lines(Panels& panels, const std::vector<Pose>& poses) {
   panels.caption = caption_line_height(text_scale);
   panels.has_masses = true;
   if (all_fit(panels, whole)) return;
-  for (const std::size_t form : {std::size_t{0}, std::size_t{1}}) {  // on one line without names: the sheet has them
+  // On one line by short names, which the sheet explains; without any where these have no room.
+  for (const auto& [pose, form] : {std::pair{1, 1}, {2, 1}, {2, 2}}) {
     std::vector<std::string> bare;
     for (std::size_t i = 0; i < poses.size(); ++i)
-      bare.push_back(panels.lines[i][1 + form] + (form == 0 ? ", " : ": ") + eigenvalues_notations(masses_of(poses[i].effective))[1]);
+      bare.push_back(panels.lines[i][std::size_t(pose)] + (form == 1 ? ", " : ": ") + eigenvalues_notations(masses_of(poses[i].effective))[std::size_t(form)]);
     if (!all_fit(panels, bare)) continue;
-    panels.under = form == 0 ? UnderPoses::masses : UnderPoses::poses_and_masses;
+    panels.under = pose == 1 ? UnderPoses::symbols : form == 1 ? UnderPoses::poses_and_symbols : UnderPoses::poses_and_masses;
     for (std::size_t i = 0; i < poses.size(); ++i) panels.lines[i] = {bare[i]};
     return;
   }
   for (std::vector<std::string>& forms : panels.lines) forms.erase(forms.begin());
-  for (std::size_t form = 0; form < 2 && masses.empty(); ++form) {
-    panels.under = form == 1 ? UnderPoses::masses : UnderPoses::named;
+  for (std::size_t form = 0; form < 3 && masses.empty(); ++form) {
+    panels.under = std::array{UnderPoses::named, UnderPoses::symbols, UnderPoses::masses}[form];
     for (const Pose& pose : poses) masses.push_back(eigenvalues_notations(masses_of(pose.effective))[form]);
     if (!all_fit(panels, masses)) masses.clear();
   }

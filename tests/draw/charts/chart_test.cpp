@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/error.hpp"
 #include "draw/chart_samples.hpp"
@@ -195,6 +196,49 @@ TEST(Chart, LightsTheCheapestAndTheChoiceOrWhatIsAskedFor) {
 }
 
 // The third of the list and the fifteenth share a green, the third and the eighth are two greens.
+// Below a chart of a slide two lines say all that they promise.
+TEST(Chart, ItsFootTakesTwoLines) {
+  WorkPrecision data = sample_work_precision();
+  data.error_meaning = "error: larger of q's and 0.19 s \u00D7 qd's at 50 instants";
+  light_curves(data, kBoth, {"taylor", "rk4"});
+  const Picture picture = work_precision_chart(data, kBoth, look_of(light_theme()));
+  std::set<double> lines;
+  std::string words;
+  for (const GlyphRun& run : all_of<GlyphRun>(picture))
+    if (run.origin.y < size::kMargin + 0.09 && run.origin.x < 2 * size::kMargin) lines.insert(run.origin.y), words += run.text + " ";
+  EXPECT_EQ(lines.size(), 2u) << words;
+  for (const char* part : {"50 instants", "grows to", "2\u00D710\u207B\u00B2\u2074", "1, 10, 100 times", "10 others, grey: --highlight", "failed or lost", "revision 1a2b3c4"})
+    EXPECT_THAT(words, HasSubstr(part));
+}
+
+// The name of a grey curve has a line to it, or no other curve beside it.
+TEST(Chart, NamesOfGreyCurvesAreSeenToBeTheirs) {
+  WorkPrecision data;
+  // Two that end side by side, and one by itself.
+  const auto add = [&](const char* method, double error, double cost, double per_error = 3) {
+    ChartCurve curve{method, 0, {}, int(data.curves.size())};
+    for (int i = 0; i < 4; ++i) curve.points.push_back({error * std::pow(10.0, -2 * i), cost * std::pow(per_error, i), 1e3, false, ""});
+    data.curves.push_back(curve);
+  };
+  add("lit", 1, 1e-4, 1.5), add("left", 30, 2e-3, 20), add("right", 36, 2e-3, 20), add("alone", 1e5, 1e-3, 20);
+  light_curves(data, kSeconds, {"lit"});
+  for (const Theme* theme : {&light_theme(), &dark_theme()}) {
+    const Picture picture = work_precision_chart(data, kSeconds, look_of(*theme));
+    const auto dots = all_of<Ellipse>(picture, [&](const Ellipse& dot) { return dot.paint.fill == theme->muted; });
+    EXPECT_GE(dots.size(), 2u) << "left and right";
+    for (const char* name : {"left", "right", "alone"}) EXPECT_TRUE(says(picture, name)) << name;
+    for (const Ellipse& dot : dots) {
+      const auto leads_there = [&](const Capsule& line) { return test::distance(line.a, dot.center) < 1e-12 && test::distance(line.a, line.b) > 1e-3; };
+      EXPECT_EQ(all_of<Capsule>(picture, leads_there).size(), 1u);
+    }
+  }
+  // Negative control: far from all others a name stands beside its end.
+  data.curves.erase(data.curves.begin() + 1, data.curves.begin() + 3);
+  const Picture two = work_precision_chart(data, kSeconds, look_of(light_theme()));
+  EXPECT_TRUE(says(two, "alone"));
+  EXPECT_TRUE(all_of<Ellipse>(two, [](const Ellipse& dot) { return dot.paint.fill == light_theme().muted; }).empty());
+}
+
 TEST(Chart, CurvesInColourHaveColoursOfTheirOwn) {
   const auto lit = [](std::vector<std::size_t> places) {
     WorkPrecision data;

@@ -139,6 +139,33 @@ TEST(PoseLabels, StandOffTheLinesThatAreDrawn) {
   EXPECT_FALSE(lies_on({{{middle.x - 0.3, middle.y}, {middle.x + 0.3, middle.y}, 0.001, false}}));
 }
 
+// Beside the curve of another it would be taken for that one's.
+TEST(PoseLabels, StandOffTheCurvesOfOthers) {
+  const Rect area{0, 0, 1.7, 1};
+  const TextLine name = lay_out_text(fonts(), "t = 1 s", {Face::label, 0.028, light_theme().ink, Align::left});
+  std::vector<NamedPlace> places{{{0.5, 0.5}, name, {Point{0.03, 0}, Point{0, 0.01}}}};
+  const Rect alone = place_names(places, {}, area).front().word.box;
+  // Of another whose curve passes by the place that it would have.
+  const Point beside{(alone.x0 + alone.x1) / 2, alone.y1 + 0.018};
+  places.push_back({beside, name, {Point{0.1, 0}, Point{0, 0.003}}});
+  const Rect box = place_names(places, {}, area).front().word.box;
+  EXPECT_GT(std::max({box.y0 - beside.y, beside.y - box.y1, box.x0 - beside.x - 0.1, beside.x - 0.1 - box.x1}), 0.02);
+}
+
+// Both lines of a name that stands left of its pose end where its leader begins, which met a blank.
+TEST(Superposed, NamesLeftOfTheirPosesEndAtTheirLines) {
+  const std::vector<std::vector<double>> close{{2.9, 1.0}, {2.95, 1.0}, {3.0, 1.0}, {3.05, 1.0}};
+  PoseFigureOptions options = with_layout("superposed");
+  for (const char* name : {"a", "b", "c", "d"}) options.labels.push_back(name);
+  const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), close, options, fonts());
+  const auto runs = test::all_of<GlyphRun>(picture, [](const GlyphRun& run) { return run.stroke_width == 0 && !run.glyphs.empty(); });
+  std::size_t at_right = 0;
+  for (const GlyphRun& name : runs)
+    for (const GlyphRun& masses : runs)
+      if (name.text.size() == 1 && masses.text.ends_with(" kg") && std::abs(name.origin.y - masses.origin.y - 1.35 * name.size) < 1e-9) at_right += name.origin.x > masses.origin.x + 0.5 * masses.glyphs.back().x;
+  EXPECT_GE(at_right, 1u);
+}
+
 // Very many, on one another, or none at all: no name covers another, and it comes to an end.
 TEST(PoseLabels, StandOffOneAnotherInAnyCrowd) {
   const Rect area{0, 0, 1.7, 1};
@@ -399,6 +426,18 @@ TEST(Field, FillsCutEllipsesByTheirLength) {
     if (const auto* piece = std::get_if<Polygon>(&item.shape); piece && item.clip > 0) fills[std::size_t(item.clip - 1)] = piece->paint.fill.a;
   for (int whole = 0; whole < 4; ++whole) EXPECT_NEAR(fills[std::size_t(whole)], fills[0], 1e-12) << whole;
   for (int cut = 4; cut < 7; ++cut) EXPECT_GT(fills[std::size_t(cut)], fills[std::size_t(cut == 4 ? 0 : cut - 1)] + 0.02) << cut;
+}
+
+// Numbers of kilograms without a name below a panel would be anybody's.
+TEST(EllipseFigure, NamesTheMassesBelowItsPanels) {
+  std::vector<std::vector<double>> poses;
+  for (int i = 0; i < 9; ++i) poses.push_back({0, 22.5 * kOneDegree * i});
+  const Picture picture = draw_ellipse_figure(TipMass(test::model("rr")), poses, {}, fonts());
+  const std::string words = test::words_of(picture);
+  EXPECT_THAT(words, testing::HasSubstr("\u039B\u1D62: eigenvalues of \u039B"));
+  std::size_t named = 0;
+  for (const GlyphRun& run : test::all_of<GlyphRun>(picture)) named += run.face == Face::math && run.text.find("\U0001D706") != std::string::npos;
+  EXPECT_EQ(named, poses.size());
 }
 
 // Below each of many poses stand its masses: at the axes they would stand twice. Speeds stand at the axes alone.
