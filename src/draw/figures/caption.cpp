@@ -178,7 +178,7 @@ std::vector<std::string> eigenvalues_notations(const std::vector<std::optional<d
   for (const std::optional<double>& mass : masses)
     entries.push_back(mass ? number_notation(*mass, *mass) : std::string("\u221E"));
   const std::string list = list_of(entries) + "\u2009kg";
-  return {"\"eig\" Lambda = " + list, "Lambda_i = " + list, list};
+  return {"\"eig\" Lambda = " + list, "Lambda: " + list, list};
 }
 
 std::vector<std::string> pose_in_lines(const Chain& chain, const std::vector<double>& q, std::size_t a_line) {

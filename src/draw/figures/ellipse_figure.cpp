@@ -196,9 +196,9 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
   text.legend = ellipse_legend(options.reading, chain.planar      ? EllipseBody::flat
                                                 : options.section ? EllipseBody::section
                                                                   : EllipseBody::solid);
-  constexpr std::array kUnder = {"", ", \u039B\u1D62: eigenvalues of \u039B", ", eigenvalues of \u039B under each pose", ", under each q \u039B\u1D62: eigenvalues of \u039B", ", under each q: eigenvalues of \u039B"};
+  constexpr std::array kUnder = {"", ", eigenvalues of \u039B under each pose", ", under each q: eigenvalues of \u039B"};
   if (under != UnderPoses::named) text.legend = text.legend.substr(0, text.legend.find(": ")) + kUnder[std::size_t(under)];
-  if (options.cell > 0) text.legend += "; cut where longer than its cell, darker the longer" + (options.branch.empty() ? "" : ", " + options.branch);
+  if (options.cell > 0) text.legend += "; cut where longer than its cell, the longer the fuller" + (options.branch.empty() ? "" : "; " + options.branch);
   text.legend_size = size::kTick;
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts, height);

@@ -31,8 +31,8 @@ EllipseScale scale_for(const std::vector<Pose>& poses, double room, EllipseReadi
 // The bar of a scale that draws a unit so long, units of H.
 EllipseScale scale_of(double per_unit, EllipseReading reading);
 
-// What below panels the legend explains: nothing, masses that are called Lambda_i, those without a name, the same below poses without one.
-enum class UnderPoses { named, symbols, masses, poses_and_symbols, poses_and_masses };
+// What below panels the legend explains: nothing, masses, or poses without a name and masses.
+enum class UnderPoses { named, masses, poses_and_masses };
 
 // With legend, scale and title.
 // `height`: of the page, in units.

@@ -140,13 +140,13 @@ void write_lines(Panels& panels, const std::vector<Pose>& poses) {
     for (std::size_t i = 0; i < poses.size(); ++i)
       bare.push_back(panels.lines[i][std::size_t(pose)] + (form == 1 ? ", " : ": ") + eigenvalues_notations(masses_of(poses[i].effective))[std::size_t(form)]);
     if (!all_fit(panels, bare)) continue;
-    panels.under = pose == 1 ? UnderPoses::symbols : form == 1 ? UnderPoses::poses_and_symbols : UnderPoses::poses_and_masses;
+    panels.under = pose == 1 ? UnderPoses::masses : UnderPoses::poses_and_masses;
     for (std::size_t i = 0; i < poses.size(); ++i) panels.lines[i] = {bare[i]};
     return;
   }
   for (std::vector<std::string>& forms : panels.lines) forms.erase(forms.begin());
   for (std::size_t form = 0; form < 3 && masses.empty(); ++form) {
-    panels.under = std::array{UnderPoses::named, UnderPoses::symbols, UnderPoses::masses}[form];
+    panels.under = form == 0 ? UnderPoses::named : UnderPoses::masses;
     for (const Pose& pose : poses) masses.push_back(eigenvalues_notations(masses_of(pose.effective))[form]);
     if (!all_fit(panels, masses)) masses.clear();
   }

@@ -125,10 +125,11 @@ void draw_cut_edges(Picture& picture, Point center, Point along, double half_ang
       picture.add(Arc{center, style.disc, middle + side - half_angle + i * (1 + kGapOfDash) * dash, dash, style.lines * size::kEllipseAxis, style.theme->ellipse}, clip);
 }
 
-// Cut curves of one circle look alike: how far one leads beyond it is seen in its inside, by the decades of that.
+// Cut curves of one circle look alike: how far one leads beyond it is seen in its inside.
 double fill_beyond(double length, double disc) {
-  constexpr double kMostFill = 0.42, kDecades = 2;  // opacity: lines on it keep a contrast of 3
-  return std::lerp(kEllipseFill, kMostFill, std::clamp(std::log10(length / disc) / kDecades, 0.0, 1.0));
+  constexpr double kMostFill = 0.42;  // opacity: lines on it keep a contrast of 3
+  constexpr double kDarkest = 4;      // times the circle
+  return std::lerp(kEllipseFill, kMostFill, std::clamp(std::log(length / disc) / std::log(kDarkest), 0.0, 1.0));
 }
 
 // A curve of a field, which ends at the circle of its cell: the inside is cut there, lines fade over the last quarter of
