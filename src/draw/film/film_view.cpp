@@ -95,11 +95,21 @@ std::vector<PanelCell> cells_of(const Stage& stage, const FilmSheet& sheet, doub
     if (!is_large_enough(all.front().scene)) all.clear();
     return all;
   };
+  // Titles that would be cut stand on two lines.
+  const auto cells_of_grid = [&] {
+    const auto with = [&](const PanelRows& rows) { return best_cells(area, count, rows, box, sheet.widest_title(stage), is_paper(stage.page), stage.page.video.panel_names > 0); };
+    std::vector<PanelCell> cells = with(sheet.rows);
+    PanelRows rows = sheet.rows;
+    if (!cells.empty() && !(stage.page.video.panel_names > 0)) rows.title = sheet.row_of_titles(stage, cells.front().title.width()).value_or(rows.title);
+    if (!(rows.title > sheet.rows.title)) return cells;
+    std::vector<PanelCell> higher = with(rows);
+    return higher.empty() || higher.front().title.width() < cells.front().title.width() - kRoundOff ? cells : higher;
+  };
   const std::vector<PanelCell> cells =
       sheet.plot_room.columns > 0       ? cells_beside_plot()
       : stage.is_ghost()                ? ghost_cells(area, sheet.rows, stage.motions)
       : stage.page.layout == PageLayout::compare ? compared_cells(stage, sheet, area, box)
-                                        : best_cells(area, count, sheet.rows, box, sheet.widest_title(stage), is_paper(stage.page), stage.page.video.panel_names > 0);
+                                        : cells_of_grid();
   if (cells.empty())
     throw Error(ExitCode::bad_input,
                 "the panels get too small on this page: compare fewer, or lower text_scale",
