@@ -198,7 +198,7 @@ Sheet sheet_of(const Chain& chain, const PoseFigureOptions& options, const Ellip
                                                                   : EllipseBody::solid);
   constexpr std::array kUnder = {"", ", eigenvalues of \u039B under each pose", ", under each q: eigenvalues of \u039B"};
   if (under != UnderPoses::named) text.legend = text.legend.substr(0, text.legend.find(": ")) + kUnder[std::size_t(under)];
-  if (options.cell > 0) text.legend += "; cut where longer than its cell, the longer the fuller" + (options.branch.empty() ? "" : "; " + options.branch);
+  if (options.cell > 0) text.legend += "; cut where longer than its cell (deeper fill: longer)" + (options.branch.empty() ? "" : "; " + options.branch);
   text.legend_size = size::kTick;
   return lay_out_sheet(text, double(options.width) / options.height, options.text_scale, *options.theme,
                        fonts, height);

@@ -83,6 +83,7 @@ class FootLayer : public Layer {
       : theme_(&stage.theme),
         page_(&stage.page),
         held_(words(stage, "holds the foot: a real one would tip")),
+        tips_(words(stage, "a real foot would tip")),
         short_(words(stage, "holds the foot")),
         turned_(words(stage, "a real foot has tipped")),
         names_center_(stage.shows("com") && stage.shows("legend")),
@@ -199,14 +200,17 @@ class FootLayer : public Layer {
       for (const double depth : kDepths) places.push_back({right - half.x, pulled.y - depth - half.y, right + half.x, pulled.y - depth + half.y});
     };
     add_below(line);
-    add_below(short_);
+    // Where there is no room for all, what of it matters most.
+    std::vector<TextLine> shorter{tips_};
+    if (is_pulled) shorter.push_back(short_);
+    for (const TextLine& words : shorter) add_below(words);
     const Point middle = pulled + 0.5 * pull_on_page(run, hold, camera);
-    labels.add({"foot held", line, std::move(places), {}, Tie{middle, kBesideArrow / 2, theme_->muted, {}, kShortestTie}, {short_}});
+    labels.add({"foot held", line, std::move(places), {}, Tie{middle, kBesideArrow / 2, theme_->muted, {}, kShortestTie}, std::move(shorter)});
   }
 
   const Theme* theme_;
   const Scene* page_;
-  TextLine held_, short_, turned_;  // short_: where there is no room for all
+  TextLine held_, tips_, short_, turned_;
   bool names_center_;  // another layer does
   double arrow_;  // units of H: the weight's
   std::map<const StagedRun*, FootRun> runs_;

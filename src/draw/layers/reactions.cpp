@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/robot/chain.hpp"
 #include "dynamics/kinematics.hpp"
 
 namespace chainreel {
@@ -13,6 +14,7 @@ using Eigen::Vector3d;
 constexpr double kAlongPushed = 0.1;    // cosine of the largest angle from a force to the link that it pushes
 constexpr double kSameSize = 1e-6;      // of the multipliers' sizes: rounding of directions is far below, other directions far above
 constexpr std::size_t kMostInName = 3;  // rows: of more a name is longer than arrows
+constexpr double kSamePlace = 1e-6;     // of the reach: rounding
 constexpr double kBetweenShares = 0.02;  // units of H at usual marks, between arrows that stand beside one another: heads are 0.018 wide
 
 // What acts at one place is one force.
@@ -130,6 +132,8 @@ WorldVector ReactionRun::vector_of(const Reaction& one, const Workspace& ws, int
   WorldVector vector{VectorKind::constraint, frame_position(motion_->chain(), ws, one.frame), one.force, Vector3d::Zero(), Vector3d::Zero(), "f_c"};
   const Place& place = places_.at(one.frame);
   vector.pushes = place.is_pushed;
+  const Chain& chain = motion_->chain();
+  vector.at_tip = chain.end_effector >= 0 && (vector.place - tip_position(chain, ws)).norm() < kSamePlace * motion_->skeleton().reach;
   const std::size_t rows = one.rows.size();
   if (rows == 0 || rows > kMostInName) return vector;
   if (!place.extremes.empty()) vector.extreme = place.extremes[std::size_t(k)];

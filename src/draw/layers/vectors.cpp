@@ -27,12 +27,14 @@ constexpr double kAboutPeak[] = {0.04, 0.08, 0.13, 0.19}, kLeastUntied = 0.1;  /
 constexpr double kFarName = 30;            // Tie::cost: a name stands near and goes while a link passes, rather than 0.15 H away; numbers stay
 constexpr double kBesideSwept = 0.03, kFarthestSwept = 0.3;  // units of H: from a circle that a link sweeps, half of its width included; words farther off name nothing
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
+constexpr double kOffDisc = 0.018, kLeastOffDisc = 0.012;  // units of H: short ones of ties begin beside the disc of their joint; of less is a dot
 constexpr double kLeastOfTie = 0.034;     // units of H: those of ties begin at a joint's disc, beyond which a head, 0.024 long, is to be seen
 constexpr double kWholeRadius = 60;       // degrees: an arc that turns by less has a smaller radius, down to a dot
 constexpr double kNearestName = 0.65;     // of an arc's whole radius: where it changes its sense its name stays, rather than run in and out
 constexpr double kClearOfJoint = 0.020;   // units of H: arcs of twice that have an edge, those within it none
 constexpr double kLegendArc = 1.3;        // of the arc that most of a film's are smaller than: that of the legend at most
 constexpr double kTorqueDot = 0.0062;     // radius, units of H
+constexpr double kDotAboutTip = 0.0105;   // likewise: a ring about the mark of the end effector
 constexpr double kPlaceDot = 0.0050, kTieToPlace = 0.0015, kPlaceCasing = 0.0016;  // units of H: radius, width, on each side
 constexpr double kBreakOpens = 0.1;       // a break is open where this much of the length is cut
 constexpr double kRoomStep = 0.01;   // units of H: rooms are rounded up to multiples, to have few kinds
@@ -264,6 +266,19 @@ const TextLine& VectorPen::label(const WorldVector& vector, double marks, bool h
   return labels_.emplace(key, lay_out_math(*fonts_, words, style)).first->second;
 }
 
+namespace {
+
+// Of a tie, whose arrow would lie under the disc there where it is short.
+bool begins_at_joint(const WorldVector& vector) {
+  return vector.kind == VectorKind::constraint && !vector.pushes && vector.aside == 0;
+}
+
+Point unit_or_zero(Point v) {
+  return norm(v) > 0 ? unit(v) : Point{};
+}
+
+}  // namespace
+
 VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera& camera, double marks, double share) const {
   const VectorScale scale = scales_.of(vector.kind);
   const double magnitude = vector.value.norm();
@@ -283,6 +298,10 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
     arrow.shift = (marks * size::kBesideRail) * side;
   }
   if (vector.pushes && length > 0) arrow.shift = -(1 + marks * size::kBeforePushed / length) * arrow.v;
+  if (begins_at_joint(vector) && length > 0) {
+    const double least = marks * kLeastOfTie;
+    arrow.shift = (marks * kOffDisc * std::clamp(2 - length / least, 0.0, 1.0)) * unit_or_zero(arrow.v);
+  }
   if (const double left = vector.aside + marks * vector.lane; left != 0 && length > 0) arrow.shift = arrow.shift + left * normal_to(unit(arrow.v));
   return arrow;
 }
@@ -399,15 +418,16 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (!(magnitude > kRoundOffBelow * scale.full)) return;
   // Those of ties act at joints and ends, whose discs would hide the half of a short one.
   const double least_named = marks * (vector.kind == VectorKind::constraint ? kLeastOfTie : kLeastLabelled);
-  const bool is_seen = norm(arrow.v) >= (vector.kind == VectorKind::constraint ? least_named : size::kShortestArrow);
+  const double least_seen = begins_at_joint(vector) ? marks * kLeastOffDisc : vector.kind == VectorKind::constraint ? least_named : size::kShortestArrow;
+  const bool is_seen = norm(arrow.v) >= least_seen;
   const Point tail = place + arrow.shift;
   if (is_seen && vector.aside != 0) draw_tie_to_place(picture, place, tail, marks, color_of(vector.kind, *theme_), clip);
   if (is_seen)
     draw_arrow(picture, tail, arrow.v,
                {color_of(vector.kind, *theme_), marks, vector.kind == VectorKind::constraint, arrow.broken, theme_->lines, theme_->background}, clip);
   // What is hardly more than a head, or none, is a dot, lest it be thought that nothing acts.
-  if (scale.on_page(magnitude) < least_named && vector.kind != VectorKind::velocity)
-    picture.add(Ellipse{vector.pushes || vector.aside != 0 ? place : tail, {marks * kPlaceDot, 0}, {0, marks * kPlaceDot}, {color_of(vector.kind, *theme_), {}, 0}}, clip);
+  if (const double dot = marks * (vector.at_tip ? kDotAboutTip : kPlaceDot); scale.on_page(magnitude) < (begins_at_joint(vector) ? least_seen : least_named) && vector.kind != VectorKind::velocity)
+    picture.add(Ellipse{vector.pushes || vector.aside != 0 ? place : tail, {dot, 0}, {0, dot}, {color_of(vector.kind, *theme_), {}, 0}}, clip);
   // A word beside such a one names what nobody sees, unless it is a number that stays: of a push, of a weight, or of a peak.
   const bool is_small = norm(arrow.v) < least_named;
   const bool stays = vector.kind == VectorKind::push || vector.kind == VectorKind::weight || vector.peak;

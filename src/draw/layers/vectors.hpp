@@ -49,6 +49,7 @@ struct WorldVector {
   bool keeps_name = false;  // of a torque: it is small for a moment only, as where it changes its sense, and does not lose its name for that
   double swept = 0;  // m: of a torque about a joint of the ground, how far from it the link reaches that it turns
   double size = 1;  // of a torque's arc: less where links are short on the page
+  bool at_tip = false;  // at the end effector, whose mark would hide a dot
   bool pushes = false;  // a force whose arrow ends where it acts: from there it would lie on the link that it pushes
   std::optional<Amount> amount{};
   std::optional<double> extreme{};  // its number where that is largest between the frames beside this one

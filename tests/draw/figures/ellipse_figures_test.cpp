@@ -411,7 +411,7 @@ TEST(Field, KeepsEachEllipseInItsCell) {
         EXPECT_LE(test::distance(piece->corners[std::size_t(i)], middle), side / 2);
   }
   EXPECT_THAT(test::words_of(picture), testing::Not(testing::HasSubstr("\u221E")));
-  EXPECT_THAT(test::words_of(picture), testing::HasSubstr("cut where longer than its cell, the longer the fuller; elbow down"));
+  EXPECT_THAT(test::words_of(picture), testing::HasSubstr("cut where longer than its cell (deeper fill: longer); elbow down"));
 }
 
 // The nearer to a stretched arm, the longer the ellipse, of which a cell shows no more than of the others.

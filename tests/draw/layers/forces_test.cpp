@@ -144,6 +144,23 @@ TEST(ChangePoint, IsShownAtOtherInstants) {
 }
 
 // A force that pushes its link comes from outside; where it is drawn from its place on, it lies on the link.
+// A tenth of the largest is less than the disc of the pin in which it begins, and was not seen at all.
+TEST(ConstraintForces, ThatAreSmallStandBesideTheDiscOfTheirJoint) {
+  const Cause cause("slider_crank");
+  const Film pictures = cause.film();
+  for (const int k : {18, 24, 75}) {
+    const Workspace ws = [&] {
+      Workspace at(cause.simulation.chain);
+      compute_kinematics(cause.simulation.chain, at, cause.run.q_at(k), cause.run.qd_at(k));
+      return at;
+    }();
+    const Point pin = pictures.camera().project(tip_position(cause.simulation.chain, ws));
+    const auto heads = test::all_of<Polygon>(pictures.frame(k), [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().constraint; });
+    ASSERT_EQ(heads.size(), 1u) << k;
+    for (int i = 0; i < 3; ++i) EXPECT_GT(test::distance(heads[0].corners[std::size_t(i)], pin), 0.011) << k << ": the disc's radius is 0.011 H";
+  }
+}
+
 TEST(ConstraintForces, EndAtThePlaceThatTheyPush) {
   const Cause pen("pen", {"layout=scene"});
   const Film pictures = pen.film();
