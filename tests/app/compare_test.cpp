@@ -202,6 +202,19 @@ TEST_F(CompareFilm, OfSixMethodsHasAPlotInTheColoursOfItsPanels) {
   EXPECT_EQ(starts.find("energy error [J]"), std::string::npos) << "negative control: these are seen to differ";
 }
 
+// On a small page panels above a plot are so low that nothing is seen in them: they stand beside it.
+TEST_F(CompareFilm, StandsBesideItsPlotWhereThatMakesItMuchLarger) {
+  const auto left_of_second = [&](const std::string& width, const std::string& height) {
+    const ProgramResult result = run_program({"snapshot", "redundant", "--at", "1", "--width", width, "--height", height, "-o", folder_.file("two.svg"), "--force", "--quiet"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const std::string svg = read_whole_file(folder_.file("two.svg"));
+    const std::size_t x = svg.rfind("x=\"", svg.find(">twice<"));
+    return std::stod(svg.substr(x + 3)) / std::stod(width);
+  };
+  EXPECT_LT(left_of_second("480", "270"), 0.4) << "both panels and the plot in one row";
+  EXPECT_GT(left_of_second("1920", "1080"), 0.5) << "negative control: half of the page each";
+}
+
 TEST_F(CompareFilm, VaryRefusesWhatDoesNotFitAPage) {
   const std::string plain = scene("");
   const ProgramResult many = run_program({"snapshot", plain, "--vary", "parameters.k=1:100:13"});

@@ -19,6 +19,7 @@ constexpr double kPlotsOfSpare = 0.6;  // ... of the height that a motion leaves
 constexpr double kHighestPlots = 0.34;
 constexpr double kNarrowMotion = 0.5;  // of its height, or of the page's width
 constexpr double kNarrowestPlots = 0.3;  // of the page's width, beside panels
+constexpr double kWorthBeside = 1.3;   // times the size below plots: then panels of a motion that is not narrow stand beside them, too
 constexpr double kTitleAir = 1.1;      // times the least width of a panel's title, on two lines
 constexpr double kFlatMotion = 0.8;      // of the scene's height
 constexpr double kWorthwhile = 0.02;   // ... of the width
@@ -126,25 +127,28 @@ double area_of(const PlotStrip& plot) {
   return plot.frame().box.width() * plot.frame().box.height();
 }
 
-// Panels of a narrow motion, beside one another, stand beside their plots where they are no smaller there, each as wide as its motion and its title are.
+// Panels of a narrow motion, beside one another, stand beside their plots where they are no smaller there, those of others where they are much larger, each as
+// wide as its motion and its title are.
 std::optional<Composition> with_plots_beside_panels(const Scene& page, const Shown& film, const Story& story, const Composition& below) {
   // Panels above a plot are lower, and marks in them no smaller: whether the motion is narrow is seen beside it.
   const auto is_narrower = [](const Composition& one, double part) { return one.view.size_used().x < part * one.view.size_used().y; };
   const bool may_stand = below.stage->has_cells() && page.layout == PageLayout::compare && !below.sheet.plots.empty() && !is_narrow(page) &&
-                         !(page.video.least_text > 0) && is_narrower(below, 2 * kNarrowMotion);
+                         !(page.video.least_text > 0);
   if (!may_stand) return std::nullopt;
   try {
     PlotRoom room;
     room.beside_panels = true;
     const Composition first = with_readable_words(page, film, story, room);
-    if (!is_narrower(first, kNarrowMotion)) return std::nullopt;
+    const bool is_slim = is_narrower(below, 2 * kNarrowMotion) && is_narrower(first, kNarrowMotion);
+    const double least = (is_slim ? 1 : kWorthBeside) * below.view.camera.scale;
+    if (!is_slim && !(first.view.camera.scale >= least)) return std::nullopt;
     const double count = double(first.view.cells.size());
     const double panel = std::max(first.view.size_used().x + kKeptBeside, kTitleAir * first.sheet.narrowest_panel(*first.stage));
     const double spare = first.sheet.sheet.scene.width() - count * panel - (count - 1) * size::kGutter;
     room.beside = std::clamp(kPlotsBeside + spare / first.sheet.sheet.aspect, kNarrowestPlots, kWidestPlots);
     Composition beside = with_readable_words(page, film, story, room);
     // Words go in one order: fewer of them are some of those that go below.
-    const bool is_as_good = beside.left_out.size() <= below.left_out.size() && beside.view.camera.scale >= below.view.camera.scale && lack_of_room(beside).what.empty();
+    const bool is_as_good = beside.left_out.size() <= below.left_out.size() && beside.view.camera.scale >= least && lack_of_room(beside).what.empty();
     if (is_as_good) return beside;
   } catch (const Error& error) {
     if (!tells_of_no_room(error)) throw;

@@ -41,7 +41,8 @@ struct Composition {
 // On narrow pages names of the legend that tell no scale go before the plot. The plot of a grid of panels stands in the cell that these would leave
 // empty, or in one of a grid in which they are larger by a tenth. Where words had to be enlarged, panels lower than two fifths of the page
 // take the rows of equation and torque_label above them.
-// In layout `compare` plots stand beside the panels of a motion that is at most half as wide as high, where these are no smaller for it.
+// In layout `compare` plots stand beside the panels of a motion that is at most half as wide as high, where these are no smaller for it, and of others
+// where they are larger by three tenths.
 // Comparisons have theirs on pages that are narrow, and those that lie over one another on all, where it costs next to nothing; those
 // of methods, which look alike, where kLeastKeptOfMethods is kept.
 //
