@@ -303,7 +303,7 @@ TEST(Stills, HaveNamesThatTheFilmLeavesOut) {
   };
   int lacking = 0, gained = 0;
   for (int k = 0; k < cause.run.size(); ++k) {
-    const std::span<const StandingWord> words = pictures.words(0, k);
+    const std::vector<StandingWord> words = pictures.words(0, k);
     if (std::none_of(words.begin(), words.end(), [](const StandingWord& word) { return !(word.opacity > 0); })) continue;
     ++lacking;
     gained += letters(pictures.still(k)) > letters(pictures.frame(k));
