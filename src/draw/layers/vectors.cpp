@@ -300,7 +300,7 @@ VectorPen::Straight VectorPen::straight(const WorldVector& vector, const Camera&
   if (vector.pushes && length > 0) arrow.shift = -(1 + marks * size::kBeforePushed / length) * arrow.v;
   if (begins_at_joint(vector) && length > 0) {
     const double least = marks * kLeastOfTie;
-    arrow.shift = (marks * kOffDisc * std::clamp(2 - length / least, 0.0, 1.0)) * unit_or_zero(arrow.v);
+    arrow.shift = arrow.off = (marks * kOffDisc * std::clamp(2 - length / least, 0.0, 1.0)) * unit_or_zero(arrow.v);
   }
   if (const double left = vector.aside + marks * vector.lane; left != 0 && length > 0) arrow.shift = arrow.shift + left * normal_to(unit(arrow.v));
   return arrow;
@@ -420,7 +420,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const double least_named = marks * (vector.kind == VectorKind::constraint ? kLeastOfTie : kLeastLabelled);
   const double least_seen = begins_at_joint(vector) ? marks * kLeastOffDisc : vector.kind == VectorKind::constraint ? least_named : size::kShortestArrow;
   const bool is_seen = norm(arrow.v) >= least_seen;
-  const Point tail = place + arrow.shift;
+  const Point tail = place + arrow.shift, root = tail - arrow.off;  // what words are about does not turn with a short arrow
   if (is_seen && vector.aside != 0) draw_tie_to_place(picture, place, tail, marks, color_of(vector.kind, *theme_), clip);
   if (is_seen)
     draw_arrow(picture, tail, arrow.v,
@@ -440,7 +440,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   const bool is_tie = vector.kind == VectorKind::constraint;
   const auto add_about_tail = [&] {
     for (const double off : kAboutPeak)
-      for (const Rect& about : places_about(text, tail, off, {0, 1})) word.places.push_back(about);
+      for (const Rect& about : places_about(text, root, off, {0, 1})) word.places.push_back(about);
   };
   // What ties exert is known by where it acts, and turns quicker than an eye follows.
   if (is_tie) add_about_tail();
@@ -452,12 +452,12 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
     word.closed.insert(word.closed.end(), places.beyond_tip.begin(), places.beyond_tip.end());
   }
   // Where the arrow grows and turns as quickly, its number rides along with its place.
-  word.anchor = is_tie || vector.peak ? tail : tail + arrow.v;
+  word.anchor = is_tie || vector.peak ? root : tail + arrow.v;
   // Of arrows side by side each has half of the places.
   if (is_tie || vector.peak || vector.lane != 0) {
     // An arrow that is longer is near to all of these places.
     const double length = norm(arrow.v);
-    if (length < kLeastUntied && !is_blank) word.tie = Tie{tail, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
+    if (length < kLeastUntied && !is_blank) word.tie = Tie{root, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
     if (word.tie && !vector.peak) word.tie->cost = kFarName;
     if (!is_tie) add_about_tail();
   }

@@ -145,6 +145,7 @@ class VectorPen {
   struct Straight {
     Point shift, v;  // of the tail from the place; units of H
     double broken = 0;
+    Point off{};  // of the shift what leads to beside the disc of a joint
   };
   Straight straight(const WorldVector& vector, const Camera& camera, double marks, double share = 1) const;
   void draw_tie_to_place(Picture& picture, Point place, Point tail, double marks, Color color, int clip) const;
