@@ -31,7 +31,7 @@ bool matrix_fits(const EffectiveMass& effective, double width, double text_scale
 // Of each axis of the ellipse, nothing where it is infinite.
 std::vector<std::optional<double>> masses_of(const EffectiveMass& effective);
 // The masses along the axes of the ellipse, which are the eigenvalues of Lambda: "eig \u039B = (2, 1) kg".
-// The second form calls them lambda, the third is the list alone.
+// The second form calls them Lambda, the third is the list alone.
 std::vector<std::string> eigenvalues_notations(const std::vector<std::optional<double>>& masses);
 // "q = (0, 90," and "45, 0)", so many coordinates a line: for poses too long for one.
 std::vector<std::string> pose_in_lines(const Chain& chain, const std::vector<double>& q, std::size_t a_line);

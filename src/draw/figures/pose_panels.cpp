@@ -1,7 +1,6 @@
 #include "draw/figures/pose_panels.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/format.hpp"
