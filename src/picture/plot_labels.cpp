@@ -12,11 +12,10 @@ constexpr double kKeyLength = 0.042, kKeyToText = 0.010, kLeaderGap = 0.004, kLe
 constexpr double kLeaderOpacity = 0.55;
 constexpr double kLeastPitch = 1.1;  // of the em: letters of two lines do not touch
 constexpr double kTriangleLine = size::kPlotFrame;
+constexpr double kShortLastLine = 0.3, kNarrowerLines = 0.96, kNarrowestLines = 0.5;  // of the width
 
-}  // namespace
-
-std::vector<std::string> wrapped(const Fonts& fonts, const std::string& words, const TextStyle& style,
-                                 double width) {
+// Each line as long as the width lets it be.
+std::vector<std::string> full_lines(const Fonts& fonts, const std::string& words, const TextStyle& style, double width) {
   std::vector<std::string> lines;
   std::string line;
   for (std::size_t at = 0; at < words.size();) {
@@ -36,6 +35,20 @@ std::vector<std::string> wrapped(const Fonts& fonts, const std::string& words, c
     at = end + (end < words.size() && words[end] == ' ' ? 1 : 0);
   }
   if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> wrapped(const Fonts& fonts, const std::string& words, const TextStyle& style, double width) {
+  std::vector<std::string> lines = full_lines(fonts, words, style, width);
+  // No single word on the last line where the others can share theirs with it.
+  for (double narrower = kNarrowerLines * width; lines.size() > 1 && narrower > kNarrowestLines * width; narrower *= kNarrowerLines) {
+    if (lay_out_text(fonts, lines.back(), style).advance >= kShortLastLine * width) break;
+    std::vector<std::string> even = full_lines(fonts, words, style, narrower);
+    if (even.size() > lines.size()) break;
+    lines = std::move(even);
+  }
   return lines;
 }
 

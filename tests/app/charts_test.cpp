@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/format.hpp"
 #include "core/json.hpp"
 #include "integrate/method.hpp"
 #include "support/run_program.hpp"
@@ -97,6 +98,29 @@ TEST(ChartCommand, JudgesTheWay) {
     if (row.at("status") != "finished") continue;
     EXPECT_GE(number(row.at("way_error")), number(row.at("error"))) << row.at("step");
   }
+}
+
+// Where a motion magnifies roundings beyond its own size no method is better than another: what comes before is judged, and that is said.
+TEST(ChartCommand, JudgesAChaoticRunWhereItIsKnown) {
+  const TemporaryFolder folder;
+  const auto chart = [&](const std::string& scene, const Words& more) {
+    const ProgramResult result = run_program(with({"chart", scene, "--methods", "rk4,taylor", "--runs", "1", "--longest", "20ms", "--json", "--force", "-o", folder.file("c.csv")}, more));
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(result.out);
+  };
+  const Json cut = chart("rrr_torque", {});
+  EXPECT_EQ(cut.at("duration"), 5);
+  const double until = cut.at("judged_until");
+  EXPECT_LT(until, 5);
+  EXPECT_LE(until, cut.at("choice").at("holds_until").get<double>());
+  EXPECT_THAT(read_whole_file(folder.file("c.csv")), HasSubstr("# judged: the first " + format_shortest(until) + " of 5 s"));
+  double least = 1;
+  for (const Json& rung : cut.at("methods").back().at("rungs")) least = std::min(least, rung.at("way_error").is_null() ? 1 : rung.at("way_error").get<double>());
+  EXPECT_LT(least, 1e-3) << "a share of the motion that is an answer";
+  const Json whole = chart("rrr_torque", {"--set", "duration=1"});
+  EXPECT_EQ(whole.at("judged_until"), 1) << "negative control: what is known to its end";
+  EXPECT_THAT(read_whole_file(folder.file("c.csv")), Not(HasSubstr("judged")));
+  EXPECT_EQ(chart("rrr_torque", {"--error", "energy"}).at("judged_until"), 5) << "the energy is known everywhere";
 }
 
 // A run that a limit stops has no end that others could be compared at: told before anything is measured.

@@ -331,6 +331,18 @@ TEST(Labels, ParagraphsBreakAtSpacesAndHyphens) {
     EXPECT_LE(lay_out_text(fonts(), line, style).advance, 0.15) << line;
 }
 
+TEST(Labels, ParagraphsHaveNoSingleWordOnTheirLastLine) {
+  const TextStyle style{Face::label, 0.022, light_theme().ink, Align::left};
+  const std::string words = "RRR under constant torques, the first of two lines that are about as long as one of them and one word more";
+  const double all_but_one = lay_out_text(fonts(), words.substr(0, words.rfind(' ')), style).advance;
+  const std::vector<std::string> lines = wrapped(fonts(), words, style, all_but_one);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_GT(lay_out_text(fonts(), lines[1], style).advance, 0.3 * all_but_one) << lines[1];
+  const double whole = lay_out_text(fonts(), words, style).advance;
+  EXPECT_EQ(wrapped(fonts(), words, style, whole * 1.001).size(), 1u) << "negative control: one line stays one";
+  EXPECT_EQ(wrapped(fonts(), words, style, 0.7 * whole).front(), words.substr(0, wrapped(fonts(), words, style, 0.7 * whole).front().size())) << "nothing is lost";
+}
+
 // --- the rest ---
 
 TEST(Hatch, CoversMarkedCellsAlone) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 #include "app/cli/result.hpp"
@@ -57,6 +58,29 @@ struct Measured {
   std::vector<Ladder> ladders;
   std::optional<Choice> choice;
   Accuracy accuracy;
+  double duration = 0;         // s, of the scene
+  std::optional<double> until;  // s, less than that: what is judged; behind it no run follows the motion
+
+  // "5 s", "the first 2.65 of 5 s"
+  std::string span() const {
+    return (until ? "the first " + format_shortest(*until) + " of " : "") + format_shortest(duration) + " s";
+  }
+  // A run that is off by more is no answer that could be cheap: rad or m, or J.
+  double largest_answer(const ChartOptions& options) const {
+    if (!options.judges_energy()) return kAnswer * farthest();
+    return reference.run.energy > 0 ? kAnswer * reference.run.energy : std::numeric_limits<double>::infinity();
+  }
+  double farthest() const {
+    double most = 1;  // rad or m
+    for (const double q : reference.run.q) most = std::max(most, std::abs(q));
+    return most;
+  }
+  bool has_answer(const ChartOptions& options) const {
+    const double largest = largest_answer(options);
+    return std::ranges::any_of(ladders, [&](const Ladder& ladder) {
+      return std::ranges::any_of(ladder.rungs, [&](const Rung& rung) { return judged_error(rung, options.judged()) <= largest; });
+    });
+  }
 };
 
 bool stop_asked(double) {
@@ -81,15 +105,8 @@ ChoiceRung add_choice(Simulation& simulation, const Measured& measured, Ladder& 
   return {int(rungs.insert(place, rung) - rungs.begin()), true};
 }
 
-Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& chosen,
-                     const ChartOptions& options) {
+void measure_ladders(PreparedScene& prepared, const std::vector<const Method*>& chosen, const ChartOptions& options, Measured& measured) {
   Simulation& simulation = prepared.simulation;
-  Measured measured;
-  measured.accuracy = prepared.scene.accuracy;
-  measured.choice = prepared.choice;
-  if (!measured.choice)
-    measured.choice = choose_with_progress(simulation, prepared.scene, frame_times(prepared.scene), options.common.quiet);
-  throw_if_interrupted();
   {
     // It takes seconds and cannot be asked how far it is.
     Ticker ticker(options.common.quiet);
@@ -106,12 +123,32 @@ Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& 
   ladder.judged = options.judged();
   ladder.longest_run = parse_positive_seconds(options.longest, "--longest", "100ms");
   WorkTicker ticker(prepared.scene.name + ": measuring", options.common.quiet);
+  measured.ladders.clear();
   for (const Method* method : chosen) {
     measured.ladders.push_back(climb(simulation, *method, measured.reference.run, ladder, [&](double) {
       ticker.tell(double(measured.ladders.size()) / double(chosen.size()), method->name);
       return interrupted();
     }));
     throw_if_interrupted();
+  }
+}
+
+Measured measure_all(PreparedScene& prepared, const std::vector<const Method*>& chosen,
+                     const ChartOptions& options) {
+  Simulation& simulation = prepared.simulation;
+  Measured measured;
+  measured.accuracy = prepared.scene.accuracy;
+  measured.duration = simulation.duration;
+  measured.choice = prepared.choice;
+  if (!measured.choice)
+    measured.choice = choose_with_progress(simulation, prepared.scene, frame_times(prepared.scene), options.common.quiet);
+  throw_if_interrupted();
+  measure_ladders(prepared, chosen, options, measured);
+  // Where the motion magnifies roundings beyond its own size no method is better than another: judged is what comes before.
+  const double known = measured.choice->holds_until ? rounded_down(*measured.choice->holds_until, 3) : 0;
+  if (known > 0 && known < simulation.duration && !measured.has_answer(options)) {
+    measured.until = simulation.duration = known;
+    measure_ladders(prepared, chosen, options, measured);
   }
   return measured;
 }
@@ -127,8 +164,8 @@ std::string error_text(const Measured& measured, Judged judged) {
 WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOptions& options) {
   WorkPrecision data;
   data.title = "Speed against accuracy";
-  data.subtitle = title_over_runs(prepared.scene) + ", " +
-                  format_shortest(prepared.simulation.duration) + " s; reference: " + measured.reference.how;
+  data.subtitle = title_over_runs(prepared.scene) + ", " + measured.span() + (measured.until ? ", behind which no run follows the motion" : "") +
+                  "; reference: " + measured.reference.how;
   const Judged judged = options.judged();
   const bool is_of_energy = options.judges_energy();
   data.error_title = is_of_energy ? "largest energy error [J]"
@@ -139,10 +176,8 @@ WorkPrecision data_of(PreparedScene& prepared, Measured& measured, const ChartOp
     data.reference_uncertainty = judged == Judged::way ? measured.reference.uncertainty : measured.reference.final_uncertainty;
   }
   data.machine = machine_line();
-  double farthest = 1;  // rad or m
-  for (const double q : measured.reference.run.q) farthest = std::max(farthest, std::abs(q));
-  const double lost = kLost * farthest;
-  data.largest_answer = is_of_energy ? (measured.reference.run.energy > 0 ? kAnswer * measured.reference.run.energy : data.largest_answer) : kAnswer * farthest;
+  const double lost = kLost * measured.farthest();
+  data.largest_answer = measured.largest_answer(options);
   for (Ladder& ladder : measured.ladders) {
     if (ladder.rungs.empty()) continue;
     ChoiceRung choice;
@@ -178,7 +213,7 @@ std::string csv_of(const std::string& scene, const Measured& measured) {
   std::string text = csv_facts(scene);
   text += "# reference: " + measured.reference.how + ", uncertainty " +
           format_significant(measured.reference.uncertainty, 2) +
-          "\n# amplification: " + format_significant(measured.reference.amplification, 3) +
+          "\n# amplification: " + format_significant(measured.reference.amplification, 3) + (measured.until ? "\n# judged: " + measured.span() : "") +
           "\n# error: the larger of error_q and error_qd x " + format_significant(measured.reference.run.qd_scale, 6) +
           " s, at the end of the run; way_error, of way_q and way_qd: the largest at " + std::to_string(measured.reference.run.t.size()) +
           " instants along the run, of fixed steps at those at which one ends, and at all where q is off by a tenth of the motion; energy_error: the largest at the end of any step, and within steps where it is a tenth of the motion's\n";
@@ -239,6 +274,7 @@ void print_summary(const WorkPrecision& data, const Measured& measured, const Ch
                 data.is_least_of_reference() ? "to which the reference is known" : "to which the motion magnifies one rounding");
   for (const Ladder& ladder : measured.ladders)
     if (!ladder.refusal.empty()) std::printf("left out: %s\n", ladder.refusal.c_str());
+  if (measured.until) std::printf("judged: %s; in the whole no run of these follows the motion\n", measured.span().c_str());
   constexpr std::array kWhen = {", the largest along the run", ", at the end of the run", ""};  // of kErrors
   std::printf("error: %s%s; of the pictures of a film, in the unit of `accuracy`: `chainreel check SCENE --all`\n", error_text(measured, options.judged()).c_str(),
               kWhen[std::size_t(options.judged())]);
@@ -257,8 +293,10 @@ Json json_of(const std::string& scene, const Measured& measured, const ChartOpti
               {"amplification", measured.reference.amplification}}},
             {"error", "the larger of error_q and error_qd x qd_scale, at the end of the run; way_error, of way_q and way_qd: the largest along it"},
             {"judged", kJudgedKeys[std::size_t(options.judged())]},
+            {"duration", measured.duration},
+            {"judged_until", measured.until.value_or(measured.duration)},
             {"qd_scale", measured.reference.run.qd_scale},
-            {"units", {{"error", "rad or m"}, {"error_q", "rad or m"}, {"error_qd", "rad/s or m/s"}, {"way_error", "rad or m"}, {"way_q", "rad or m"}, {"way_qd", "rad/s or m/s"}, {"energy_error", "J"}, {"qd_scale", "s"}, {"step", "s"}}},
+            {"units", {{"error", "rad or m"}, {"error_q", "rad or m"}, {"error_qd", "rad/s or m/s"}, {"way_error", "rad or m"}, {"way_q", "rad or m"}, {"way_qd", "rad/s or m/s"}, {"energy_error", "J"}, {"duration", "s"}, {"judged_until", "s"}, {"qd_scale", "s"}, {"step", "s"}}},
             {"choice", choice_report(*measured.choice, measured.accuracy, false)},
             {"methods", Json::array()},
             {"left_out", Json::array()}};

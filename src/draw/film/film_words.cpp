@@ -212,7 +212,7 @@ std::vector<StandingWord> FilmWords::still(const Stage& stage, const Layers& lay
     return false;
   };
   for (std::size_t i = 0; i < words.size(); ++i)
-    if (is_told_otherwise(i) && !wishes[i].leader && (lies_on(words[i].box, obstacles) || lies_on_word(i))) words[i].opacity = 0;
+    if (is_told_otherwise(i) && !wishes[i].leader && (lies_on(words[i].box, obstacles, true) || lies_on_word(i))) words[i].opacity = 0;
   const auto is_left_out = [](const StandingWord& word) { return !(word.opacity > 0); };
   const bool has_left_out = std::any_of(words.begin(), words.end(), is_left_out);
   for (StandingWord& word : words) word.opacity = is_left_out(word) ? 0 : 1;

@@ -204,7 +204,7 @@ void draw_belt(Picture& picture, const std::vector<MassAxis>& axes, Point center
     std::vector<Point> others;
     for (std::size_t k = 0; k < axes.size(); ++k)
       if (k != i && axes[k].mass && style.unnamed != nullptr) others.push_back(*axes[k].mass * page[k]);
-    draw_length(picture, center, *axes[i].mass * page[i], *axes[i].mass, 0, style, clip, others);
+    draw_length(picture, center, *axes[i].mass * page[i], i, *axes[i].mass, 0, style, clip, others);
   }
 }
 

@@ -78,7 +78,7 @@ void draw_closed(Picture& picture, const std::vector<PageAxis>& axes, Point cent
     std::vector<Point> others;
     for (const PageAxis& other : axes)
       if (&other != &axis && style.unnamed != nullptr) others.push_back(other.v);
-    draw_length(picture, center, axis.v, *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip, others);
+    draw_length(picture, center, axis.v, std::size_t(&axis - axes.data()), *axis.length, spread.reach(normal_to(unit(axis.v))), style, clip, others);
   }
 }
 
@@ -181,7 +181,7 @@ void draw_open_in_disc(Picture& picture, const std::vector<PageAxis>& axes, Poin
   until_edge.scene = {std::max(style.scene.x0, low.x), std::max(style.scene.y0, low.y), std::min(style.scene.x1, high.x), std::min(style.scene.y1, high.y)};
   draw_infinities(picture, center, d, half_width, until_edge, clip);
   for (const PageAxis& axis : axes)
-    if (axis.length && norm(axis.v) > kNoLength) draw_length(picture, center, axis.v, *axis.length, 0, style, clip);
+    if (axis.length && norm(axis.v) > kNoLength) draw_length(picture, center, axis.v, std::size_t(&axis - axes.data()), *axis.length, 0, style, clip);
 }
 
 void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center, Point direction,
@@ -205,7 +205,7 @@ void draw_open(Picture& picture, const std::vector<PageAxis>& axes, Point center
   draw_infinities(picture, center, d, half_width, style, clip);
   for (const PageAxis& axis : axes) {
     if (!axis.length || !(norm(axis.v) > kNoLength)) continue;
-    draw_length(picture, center, axis.v, *axis.length, 0, style, clip);
+    draw_length(picture, center, axis.v, std::size_t(&axis - axes.data()), *axis.length, 0, style, clip);
   }
 }
 

@@ -217,7 +217,7 @@ class Ellipsoid {
         const auto is_hidden = [&](bool other) { return style_.hides((other ? -1 : 1) * axes_[i].v); };
         if (is_hidden(back) && !is_hidden(!back)) back = !back;
       }
-      draw_length(picture, center_, (back ? -1 : 1) * v, axes_[i].length, spread_.reach(normal_to(unit(v))), style, clip);
+      draw_length(picture, center_, (back ? -1 : 1) * v, i, axes_[i].length, spread_.reach(normal_to(unit(v))), style, clip);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "core/format.hpp"
@@ -408,7 +409,7 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
   draw_at_edges(picture, infinity(style), center, d, half_width, style, clip, nullptr);
 }
 
-void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
+void draw_length(Picture& picture, Point center, Point v, std::size_t axis, double length, double half_width, const EllipseStyle& style, int clip,
                  std::span<const Point> others) {
   if (const CutEnd end = cut_end(center, v, length, style); end.strength > 0) return draw_at_cut(picture, length, center, end, style, clip);
   const bool has_no_numbers = style.labels == nullptr && style.unnamed != nullptr;  // a figure with panels too small for them
@@ -426,7 +427,7 @@ void draw_length(Picture& picture, Point center, Point v, double length, double 
   if (style.hides)
     for (const Point tip : {center + v, center - v})
       picture.add(Ellipse{tip, {kTipDot, 0}, {0, kTipDot}, {style.theme->ellipse, style.theme->background, kTipRim}}, clip);
-  MarkWord word{"semi-axis", text_of_length(length, 1, style), {}};
+  MarkWord word{"semi-axis " + std::to_string(axis + 1), text_of_length(length, 1, style), {}};
   word.anchor = center;  // its ends may change sides
   if (strength > 0 && has_one_place(style))
     for (const double side : {1.0, -1.0})

@@ -85,8 +85,8 @@ void draw_infinities(Picture& picture, Point center, Point d, double half_width,
 // "7.91 kg", of the axis from center - v to center + v, `length` in the unit of the reading. Of a film in the plane where its outer end has left the scene
 // on the axis there, before a head that points on; of a figure where it leaves the scene at both of its ends at each of them; stronger the further it leads out; else, of a style with labels, as a word of the film beyond
 // the end of v or else at the other one, where either is in the scene; in flat figures nowhere where it could be taken for that of another
-// axis, whose vectors are `others`.
-void draw_length(Picture& picture, Point center, Point v, double length, double half_width, const EllipseStyle& style, int clip,
+// axis, whose vectors are `others`. `axis`: which one it is, by the size of its length: each has a word of its own from frame to frame.
+void draw_length(Picture& picture, Point center, Point v, std::size_t axis, double length, double half_width, const EllipseStyle& style, int clip,
                  std::span<const Point> others = {});
 
 // Whether a film has the length of this axis where it leaves the scene.

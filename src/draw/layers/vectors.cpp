@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "core/format.hpp"
 #include "draw/page/arrow.hpp"
@@ -24,6 +25,8 @@ constexpr double kOfMiddle = 2.4;         // of the middle size, whose arrow is 
 constexpr double kRestBeforeRing = 0.3, kRingFade = 0.15;  // s
 constexpr double kRingRadius = 0.026;     // units of H: close about a joint's disc
 constexpr double kAboutPeak[] = {0.04, 0.08, 0.13, 0.19}, kLeastUntied = 0.1;  // units of H: where numbers of cut arrows stand about their places, and how short arrows then need a line
+constexpr std::size_t kNearOfThese = 3;
+constexpr double kNearArrow = 0.026;       // units of H: beside the end of an arrow or the disc of its joint, where lines from words end
 constexpr double kFarName = 30;            // Tie::cost: a name stands near and goes while a link passes, rather than 0.15 H away; numbers stay
 constexpr double kBesideSwept = 0.03, kFarthestSwept = 0.3;  // units of H: from a circle that a link sweeps, half of its width included; words farther off name nothing
 constexpr double kLeastLabelled = 0.026;  // units of H: words of torques stand off their joints by more, and arrows that have words are longer
@@ -439,7 +442,8 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   MarkWord word{word_name(vector), text, {}};
   const bool is_tie = vector.kind == VectorKind::constraint;
   const auto add_about_tail = [&] {
-    for (const double off : kAboutPeak)
+    // A name that is farther off than a number is read with what stands there.
+    for (const double off : std::span(kAboutPeak).first(vector.peak ? std::size(kAboutPeak) : kNearOfThese))
       for (const Rect& about : places_about(text, root, off, {0, 1})) word.places.push_back(about);
   };
   // What ties exert is known by where it acts, and turns quicker than an eye follows.
@@ -457,7 +461,7 @@ void VectorPen::draw(Picture& picture, const WorldVector& vector, const Camera& 
   if (is_tie || vector.peak || vector.lane != 0) {
     // An arrow that is longer is near to all of these places.
     const double length = norm(arrow.v);
-    if (length < kLeastUntied && !is_blank) word.tie = Tie{root, length + marks * size::kArrowHeadWidth, color_of(vector.kind, *theme_)};
+    if (length < kLeastUntied && !is_blank) word.tie = Tie{root, marks * kNearArrow, color_of(vector.kind, *theme_), tail + arrow.v};
     if (word.tie && !vector.peak) word.tie->cost = kFarName;
     if (!is_tie) add_about_tail();
   }

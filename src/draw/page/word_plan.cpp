@@ -12,7 +12,7 @@
 namespace chainreel {
 namespace {
 
-constexpr double kPale = 0.3;           // opacity: fainter lines may lie below words
+constexpr double kPale = 0.3, kPaleOfTrail = 0.15;  // opacity: fainter lines may lie below words; a trail is one long line that words would hang on
 constexpr double kPieceOfArc = 0.3;     // rad
 constexpr double kLeavesWith = 0.03;    // units of H: a place that sticks out of the area by more is none
 constexpr std::size_t kCrowdOfWords = 60;      // words: of more each has its best place or none
@@ -22,6 +22,7 @@ constexpr double kHidden = 9, kPoorGround = 4, kWorsePlace = 0.12, kChange = 1.2
 constexpr double kStandsLonger = 0.5;  // s, for which the first and the last frame of a film count more: as posters and when it is over
 constexpr double kWorseOfMany = 0.005;  // the same of a place of words with a leader, which have many
 constexpr double kCrossedByLeader = 0.3;  // the same for each piece of what is drawn that its line crosses
+constexpr double kFirm = 4;  // times that, to a tie: one on which no word may stand, as a link
 constexpr double kEndOfLeader = 0.03;  // units of H: what lies so near to its end is what it leads to
 constexpr int kMostCrossed = 5;
 constexpr double kMiddleOfLetters = 0.3;  // of their size, above the line and to either side
@@ -67,7 +68,7 @@ struct ShapeObstacles {
   }
   void operator()(const Trail& t) const {
     for (std::size_t i = 1; i < t.points.size(); ++i)
-      if (t.color.a * t.points[i].alpha >= kPale) line(t.points[i - 1].p, t.points[i].p, t.points[i].width / 2);
+      if (t.color.a * t.points[i].alpha >= kPaleOfTrail) line(t.points[i - 1].p, t.points[i].p, t.points[i].width / 2);
   }
   void operator()(const Cells& c) const {
     for (const double share : {0.0, 0.5, 1.0}) {
@@ -110,9 +111,10 @@ Rect room_of(const Obstacle& one) {
   return one.x1 >= room.x0 && one.x0 <= room.x1 && one.y1 >= room.y0 && one.y0 <= room.y1;
 }
 
-// What a line from a word crosses, or runs along.
-double cost_of_line(Point from, Point to, const std::vector<Blocked>& near) {
+// What a line from a word crosses, or runs along. `firm`: what is no ground for words counts so many times.
+double cost_of_line(Point from, Point to, const std::vector<Blocked>& near, double firm = 1) {
   int crossed = 0;
+  double cost = 0;
   const Rect room{std::min(from.x, to.x), std::min(from.y, to.y), std::max(from.x, to.x), std::max(from.y, to.y)};
   for (const auto& [outside, obstacle] : near) {
     if (!reaches(outside, room)) continue;
@@ -120,9 +122,11 @@ double cost_of_line(Point from, Point to, const std::vector<Blocked>& near) {
     const double s = cross(line, obstacle.a - from), t = cross(line, obstacle.b - from);
     const double u = cross(piece, from - obstacle.a), v = cross(piece, to - obstacle.a);
     const bool is_on = (s * t < 0 && u * v < 0) || distance_to(0.5 * (from + to), obstacle.a, obstacle.b) < obstacle.radius;
-    if (is_on && ++crossed == kMostCrossed) break;
+    if (!is_on) continue;
+    cost += kCrossedByLeader * (obstacle.may_yield ? 1 : firm);
+    if (++crossed == kMostCrossed) break;
   }
-  return crossed * kCrossedByLeader;
+  return cost;
 }
 
 // On its way, but not at its end.
@@ -135,7 +139,7 @@ double cost_of_leader(const Leader& leader, const Rect& box, const std::vector<B
 
 double cost_of_tie(const Tie& tie, const Rect& box, const std::vector<Blocked>& near) {
   const std::optional<TieLine> line = line_of(tie, box);
-  return line ? cost_of_line(line->from, line->to, near) : 0;
+  return line ? cost_of_line(line->from, line->to, near, kFirm) : 0;
 }
 
 bool reaches(const Rect& box, const Obstacle& obstacle) {
@@ -186,8 +190,8 @@ std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield) {
   return found;
 }
 
-bool lies_on(const Rect& box, const std::vector<Obstacle>& obstacles) {
-  return std::ranges::any_of(obstacles, [&box](const Obstacle& one) { return !one.may_yield && reaches(box, one); });
+bool lies_on(const Rect& box, const std::vector<Obstacle>& obstacles, bool on_what_yields) {
+  return std::ranges::any_of(obstacles, [&](const Obstacle& one) { return (on_what_yields || !one.may_yield) && reaches(box, one); });
 }
 
 // The one of its name that is nearest to where the word is wished, and has no word at this frame yet.

@@ -24,8 +24,8 @@ struct Obstacle {
 
 // Lines, discs, edges and letters of what is drawn, units of H; what is too pale to disturb, halos and bodies in space are none.
 std::vector<Obstacle> obstacles_of(const Picture& picture, bool may_yield = false);
-// Whether words in such a box lie on one of them that does not yield.
-bool lies_on(const Rect& box, const std::vector<Obstacle>& obstacles);
+// Whether words in such a box lie on one of them that does not yield, or on any.
+bool lies_on(const Rect& box, const std::vector<Obstacle>& obstacles, bool on_what_yields = false);
 
 // From one frame to the next no word moves farther, units of H, but where it fades: on the page, or about its anchor while that
 // moves no farther than an eye can follow.

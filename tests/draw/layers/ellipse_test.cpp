@@ -226,6 +226,22 @@ TEST(Ellipse, OfAFilmHasTheNumberOfACutAxisWhereItLeaves) {
   }
 }
 
+// The plan of a film follows each word by its name: two of one name changed places where an axis turned its ends round, and stood on the curve.
+TEST(Ellipse, HasAWordOfItsOwnForEachAxis) {
+  for (const double angle : {0.2, 1.5, 1.6, 3.0}) {
+    MarkLabels labels;
+    EllipseStyle style{&light_theme(), &fonts(), 1, 0.1, {0.045, 0.12, 1.73, 0.86}};
+    style.labels = &labels;
+    const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0);
+    Picture picture;
+    draw_mass_ellipse(picture, {{2, along}, {1, Eigen::Vector3d::UnitZ().cross(along)}}, {0.8, 0.5}, {}, style, -1);
+    ASSERT_EQ(labels.words().size(), 2u);
+    EXPECT_EQ(labels.words()[0].name, "semi-axis 1");
+    EXPECT_EQ(labels.words()[0].line.runs.front().text, "2.00 kg") << angle;
+    EXPECT_EQ(labels.words()[1].name, "semi-axis 2");
+  }
+}
+
 // The tip near an edge: the major axis leaves there, its other end shows its length.
 TEST(Ellipse, IsNowhereCutFlatWhereOneEndLeavesTheScene) {
   for (const Point tip : {Point{1.70, 0.5}, {0.06, 0.5}, {0.8, 0.12}, {0.8, 0.86}}) {

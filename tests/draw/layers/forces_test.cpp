@@ -143,7 +143,6 @@ TEST(ChangePoint, IsShownAtOtherInstants) {
   EXPECT_GT(name.origin.x + name.glyphs.back().x + name.size, left);
 }
 
-// A force that pushes its link comes from outside; where it is drawn from its place on, it lies on the link.
 // A tenth of the largest is less than the disc of the pin in which it begins, and was not seen at all.
 TEST(ConstraintForces, ThatAreSmallStandBesideTheDiscOfTheirJoint) {
   const Cause cause("slider_crank");
@@ -161,6 +160,30 @@ TEST(ConstraintForces, ThatAreSmallStandBesideTheDiscOfTheirJoint) {
   }
 }
 
+// A name that stands off is led to the arrow, or to the joint at which that begins: a line that ends between them leads to nothing.
+TEST(ConstraintForces, HaveNamesThatLeadToThem) {
+  int led = 0;
+  for (const auto& size : {std::vector<std::string>{"video.width=1080", "video.height=1920"}, {"video.width=480", "video.height=270"}}) {
+    const Cause cause("four_bar_singular", size, 4);
+    const Film pictures = cause.film();
+    for (int k = 0; k < int(cause.times.size()); k += 6) {
+      const Picture frame = pictures.frame(k);
+      const auto heads = test::all_of<Polygon>(frame, [](const Polygon& p) { return p.count == 3 && p.paint.fill == light().constraint; });
+      const auto lines = test::all_of<Capsule>(frame, [](const Capsule& c) { return c.paint.fill == light().constraint && c.radius < 0.001; });  // thinner than any arrow; 0.026 H from it, 0.036 where marks are larger
+      for (const Capsule& line : lines) {
+        Workspace ws(cause.simulation.chain);
+        compute_kinematics(cause.simulation.chain, ws, cause.run.q_at(k), cause.run.qd_at(k));
+        double least = norm(line.b - pictures.camera().project(frame_position(cause.simulation.chain, ws, find_frame(cause.simulation.chain, "rocker_end"))));
+        for (const Polygon& head : heads) least = std::min(least, test::distance(line.b, head.corners[0]));
+        EXPECT_LT(least, 0.04) << k << " " << size.back();
+        ++led;
+      }
+    }
+  }
+  EXPECT_GT(led, 0);
+}
+
+// A force that pushes its link comes from outside; where it is drawn from its place on, it lies on the link.
 TEST(ConstraintForces, EndAtThePlaceThatTheyPush) {
   const Cause pen("pen", {"layout=scene"});
   const Film pictures = pen.film();
