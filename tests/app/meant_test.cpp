@@ -104,5 +104,44 @@ TEST(Meant, HelpHasThePagesThatLieBesideTheProgram) {
   EXPECT_EQ(run_program({"help", "suite"}).out, run_program({"help", "snapshots"}).out);
 }
 
+// What a picture cannot show, though it was asked for by name.
+TEST(Meant, WhatIsAskedForInVainIsSaid) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", kChain + "start: {q: [0.5, 0.5]}\nduration: 0.5\n");
+  const auto said = [&](const Words& more, int status = 0) {
+    const ProgramResult result = run_program(with({"snapshot", scene, "--force", "-o", folder.file("s.png")}, more));
+    EXPECT_EQ(result.status, status) << result.err;
+    return result.err;
+  };
+  const Words words{"--set", "draw=[+legend, +equation]"}, shadow{"--set", "draw=[+shadow]"};
+  EXPECT_THAT(said(with(words, {"--layout", "transparent"})), HasSubstr("legend, equation: not drawn"));
+  EXPECT_EQ(said(words), "");
+  EXPECT_EQ(said({"--layout", "transparent"}), "") << "nobody named its words";
+  EXPECT_THAT(said(shadow), HasSubstr("shadow: not drawn"));
+  EXPECT_EQ(said(with(shadow, {"--azimuth", "30deg"})), "");
+  EXPECT_THAT(said({"--set", "plot=['1 / 0 * t']"}, 3), HasSubstr("is not finite at any instant"));
+  EXPECT_EQ(said({"--set", "plot=['1 / t']"}), "") << "but for one";
+  EXPECT_THAT(said({"--fit", "[100, 100, 101, 101]"}, 3), HasSubstr("'camera.fit' shows nothing"));
+  EXPECT_EQ(said({"--fit", "[0.1, 0.1, 0.2, 0.2]"}), "");
+}
+
+// Rooms of marks took all of a scene that plots below it leave: its scale was 2e13 m, and plots had no height.
+TEST(Meant, PlotsBelowASceneLeaveItAndThemselvesRoom) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.yaml", kChain + "start: {q: [0.5, 0.5]}\nduration: 0.1\ntorque: [3, 2]\nplot: [energy, q, tau]\n");
+  const auto square = [&](const Words& more) {
+    return run_program(with({"render", scene, "--width", "1080", "--height", "1080", "--force", "-o", folder.file("s.mp4")}, more));
+  };
+  for (const char* draw : {"draw=[]", "draw=[+angles]", "draw=[+frames, +equation]", "draw=[+mass_matrix, +equation, +scale_bar, +angles]"}) {
+    const ProgramResult result = square({"--set", draw});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_LT(Json::parse(read_whole_file(folder.file("s.json"))).at("view").at("height").get<double>(), 12) << draw << ": the motion is 1.8 m high, and has a third of the page";
+  }
+  const ProgramResult crowded = square({"--set", "draw=[+legend, +velocity, +com, +frames, +angles, +mass_matrix, +equation, +scale_bar, +ellipse, +gravity]", "--set",
+                                        "torque=['-10 * (q1 - 1) - qd1', '3 * sin(5 * t)']", "--set", "push={frame: gripper, force: [10, 0], from: 0, until: 1}"});
+  EXPECT_EQ(crowded.status, 3) << crowded.err;
+  EXPECT_THAT(crowded.err, HasSubstr("3 plots have no room on this page"));
+}
+
 }  // namespace
 }  // namespace chainreel

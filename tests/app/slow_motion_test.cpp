@@ -258,6 +258,15 @@ TEST_F(SlowMotionFilm, StandsStillForWordsWhichItsAuditAndItsTextTell) {
   EXPECT_EQ(render(kNone, {"gif"}).at("pauses"), Json::array());
 }
 
+TEST_F(SlowMotionFilm, StandsStillForWordsOfOneInstantOneBehindTheOther) {
+  const Json audit = render("slow_motion: none\nannotate: [{event: half, text: a, point: gripper, hold: 0.4s}, {event: again, text: b, point: [0.2, -0.5], hold: 0.2s}]\n", {"gif"},
+                            {"--set", "events=[{when: \"q2 < -0.5\", name: half}, {when: \"q2 < -0.5\", name: again}]"});
+  EXPECT_EQ(audit["drawn"]["frames"], 66);
+  ASSERT_EQ(audit["pauses"].size(), 2u);
+  EXPECT_NEAR(double(audit["pauses"][0]["film_from"]), kHalf, 1e-9);
+  EXPECT_NEAR(double(audit["pauses"][1]["film_from"]), kHalf + 0.4, 1e-9);
+}
+
 TEST_F(SlowMotionFilm, ItsTableHasEachInstantOnce) {
   render(kWords, {"mp4", "csv"});
   const auto rows = table_of(text("csv"));

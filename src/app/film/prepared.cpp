@@ -33,11 +33,29 @@ void say_what_is_left_out(const std::vector<std::string>& wanted, const Prepared
   if (!missing.empty() && said.insert(note).second) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
+// Layers that the scene names and its pictures have not.
+void say_what_is_asked_in_vain(const PreparedScene& prepared, std::set<std::string>& said) {
+  const Scene& scene = prepared.scene;
+  const bool is_flat = !is_oblique(prepared.simulation.chain, scene.camera);
+  const auto say = [&](const auto& is_in_vain, const char* why) {
+    std::vector<std::string> missing;
+    for (const std::string& layer : scene.named_layers)
+      if (is_in_vain(layer)) missing.push_back(layer);
+    const std::string note = scene.name + ": " + joined(missing) + ": not drawn, " + why;
+    if (!missing.empty() && said.insert(note).second) std::fprintf(stderr, "note: %s\n", note.c_str());
+  };
+  say([&](const std::string& layer) { return is_transparent(scene) && layer_needs(layer, LayerNeeds::words); }, "as transparent pictures have no words around their scene");
+  say([&](const std::string& layer) { return is_flat && (layer == "ground" || layer == "shadow"); }, "as both are seen obliquely alone: give camera.azimuth or camera.elevation");
+}
+
 PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet, double between, std::set<std::string>& said) {
   PreparedScene prepared{std::move(scene), {}, {}, nullptr};
   const std::vector<std::string> wanted = prepared.scene.draw;
   prepared.simulation = prepare(prepared.scene, meshes);
-  if (!quiet) say_what_is_left_out(wanted, prepared, said);
+  if (!quiet) {
+    say_what_is_left_out(wanted, prepared, said);
+    say_what_is_asked_in_vain(prepared, said);
+  }
   choose_automatically(prepared, quiet, between);
   return prepared;
 }

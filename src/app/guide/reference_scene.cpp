@@ -198,7 +198,7 @@ std::string layers_page() {
          code(draw.text(draw, Scene{})) +
          ".\nEntries `+name` and `-name` edit it. Layers of the default list draw nothing where a scene has nothing of theirs, so that\n"
          "every scene shows its cause: torques that act, springs, constraints, gravity. Panels of `compare:` are small, and have\n"
-         "none of `torque`, `target` and `constraint_force` by default.\n\n"
+         "neither `target` nor `constraint_force` by default.\n\n"
          "Vectors of one kind share one scale over the whole clip, which is printed whenever they are shown. No single peak decides\n"
          "on it: 95 % of them are no larger than an arrow of 0.2 of the picture's height or an arc of 240 degrees. What is more than\n"
          "1.25 times that is cut, and has a break in its shaft. A torque that shrinks to nothing shrinks to a dot; one that has rested\n"

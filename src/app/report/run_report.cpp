@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "app/cli/streams.hpp"
 #include "app/film/automatic.hpp"
@@ -362,8 +363,11 @@ Json to_json(const FilmReport& report) {
     json["slow_motion"].push_back(std::move(entry));
   }
   json["pauses"] = Json::array();
-  for (const Pause& one : report.pauses)
-    json["pauses"].push_back({{"at", one.at}, {"seconds", one.seconds}, {"film_from", held + report.clock.film_time(one.at)}});
+  std::map<double, double> stood;  // s, by instant: pauses at one follow one another
+  for (const Pause& one : report.pauses) {
+    json["pauses"].push_back({{"at", one.at}, {"seconds", one.seconds}, {"film_from", held + report.clock.film_time(one.at) + stood[one.at]}});
+    stood[one.at] += one.seconds;
+  }
   json["versions"] = Json::object();
   for (const LibraryLine& line : library_versions(report.writes)) json["versions"][line.name] = line.version;
   return json;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "draw/film/room.hpp"
@@ -31,6 +32,7 @@ constexpr double kSmallerWords = 0.93;  // from trial to trial
 constexpr double kLowPanel = 0.4;      // of the page's height: so low panels take the rows of formulas above them
 constexpr double kLargerInGrid = 1.1;  // times the scale, for a plot in the grid of its panels
 constexpr double kFrameInGrid = 0.5;   // ... of the area of its frame
+constexpr double kLeastFrame = 1.5;    // words high: of a plot whose numbers do not lie on one another
 constexpr int kRoomTrials = 4;         // each finds most of what is lacking
 
 // The first in the order that the page still shows; null where none is left.
@@ -97,6 +99,17 @@ Composition with_rows_for_panels(Composition low, const Shown& film, const Story
   return low;
 }
 
+// Plots that their words leave no frame.
+struct CrampedPlots : Error {
+  using Error::Error;
+};
+
+// On paper pages become as high as they must be.
+bool is_cramped(const FilmSheet& sheet, const Scene& page) {
+  const double least = kLeastFrame * scaled(kSmallestText, page.text_scale);
+  return !(page.video.least_text > 0) && std::ranges::any_of(sheet.plots, [least](const PlotStrip& plot) { return !(plot.frame().box.height() >= least); });
+}
+
 Composition with_readable_words(const Scene& page, const Shown& film, const Story& story,
                                 PlotRoom room = {}) {
   Scene shown = page;
@@ -105,18 +118,21 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
   const bool is_enlarged = shown.text_scale > page.text_scale;
   std::vector<std::string> left_out;
   while (true) {
-    const char* next = is_enlarged ? next_to_go(shown) : nullptr;
+    const char* next = next_to_go(shown);
     try {
       auto stage = staged(shown, film, story);
       Layers layers = layers_of(*stage);
       FilmSheet sheet(*stage, layers, story, room);
-      if (next == nullptr || sheet.sheet.scene.height() >= kLeastScene) {
+      if (next == nullptr && is_cramped(sheet, shown))
+        throw CrampedPlots(ExitCode::bad_input, std::to_string(sheet.plots.size()) + " plots have no room on this page: plot less, lower text_scale, or take a larger or a wider page", page.place_of("plot"));
+      const bool has_room = (!is_enlarged || sheet.sheet.scene.height() >= kLeastScene) && !is_cramped(sheet, shown);
+      if (next == nullptr || has_room) {
         FilmView view(*stage, layers, sheet);
         Composition whole{std::move(stage), std::move(layers), std::move(sheet), std::move(view), std::move(left_out), {}};
         return is_enlarged && !(page.video.least_text > 0) ? with_rows_for_panels(std::move(whole), film, story, room) : std::move(whole);
       }
     } catch (const Error& error) {
-      if (next == nullptr || !tells_of_no_room(error)) throw;
+      if (next == nullptr || !is_enlarged || !tells_of_no_room(error)) throw;
     }
     std::erase(shown.draw, std::string(next));
     left_out.push_back(next);
@@ -269,8 +285,13 @@ bool has_large_words(const Scene& page) {
 
 // Where words are larger than usual the scene yields the room that they take, not the plots; they are as large as leaves it enough.
 Composition with_wide_plots(const Scene& page, const Shown& film, const Story& story, bool is_ours = false) {
-  Composition asked = with_spare_room(page, film, story, is_ours);
-  if (!has_large_words(page) || asked.sheet.plots.empty()) return asked;
+  if (!has_large_words(page)) return with_spare_room(page, film, story, is_ours);
+  try {
+    Composition asked = with_spare_room(page, film, story, is_ours);
+    if (asked.sheet.plots.empty()) return asked;
+  } catch (const CrampedPlots&) {
+    // Smaller words may leave them room.
+  }
   Scene words = page;
   words.text_scale = 1;
   Composition usual = with_spare_room(words, film, story, is_ours);

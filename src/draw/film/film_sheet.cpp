@@ -227,6 +227,9 @@ std::vector<StripData> data_of_plots(const Stage& stage, const Story& story, boo
   for (std::size_t i = 0; i < count; ++i) {
     data.push_back(strip_data(runs, i, end, stage.theme));
     if (exact) add_exact(data.back(), *exact, i, stage.theme);
+    const auto has_value = [](const StripCurve& curve) { return std::ranges::any_of(curve.points, [](const Point& p) { return std::isfinite(p.y); }); };
+    if (story.empty() && !data.back().has_poles && std::ranges::none_of(data.back().curves, has_value))
+      throw Error(ExitCode::bad_input, "'" + stage.page.plot[i].value + "' is not finite at any instant: there is nothing to plot", stage.page.plot[i].place);
     const auto is_above_zero = [](const StripCurve& curve) { return std::ranges::any_of(curve.points, [](const Point& p) { return p.y > 0; }); };
     if (data.back().is_log && std::ranges::none_of(data.back().curves, is_above_zero))
       throw Error(ExitCode::bad_input, "'" + stage.page.plot[i].value + "' is never above zero, which `scale: log` has no place for: leave the scale out",

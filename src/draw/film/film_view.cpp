@@ -180,6 +180,11 @@ void FilmView::place_camera(const Stage& stage, const Layers& layers, const Film
         stage.page.place_of("camera.distance"));
   if (marks != 1 || camera.has_eye()) boxes_ = fit_boxes(stage, layers, camera, marks);
   fit_to_area(camera, stage, boxes_, first);
+  if (!entry.fit || boxes_.must.empty()) return;
+  const Rect box = boxes_.must.box(camera.scale, 0);
+  const Point low = camera.origin + camera.scale * Point{box.x0, box.y0}, high = camera.origin + camera.scale * Point{box.x1, box.y1};
+  if (!overlap({low.x, low.y, high.x, high.y}, first))
+    throw Error(ExitCode::bad_input, "'camera.fit' shows nothing of what moves: leave it out to see where that is", stage.page.place_of("camera.fit"));
 }
 
 // In a corner that nothing ever comes into; else right of the scenes, which become narrower.

@@ -28,7 +28,9 @@ void TipPath::add(double t, Point place, Point speed) {
 Point TipPath::at(double t, int frame) const {
   if (t >= t_.back()) return place_.back();
   const std::size_t i = std::size_t(frame);
-  const double h = t_[i + 1] - t_[i], s = (t - t_[i]) / h;
+  const double h = t_[i + 1] - t_[i];
+  if (!(h > 0)) return place_[i];  // a pause
+  const double s = (t - t_[i]) / h;
   const double s2 = s * s, s3 = s2 * s;
   return (2 * s3 - 3 * s2 + 1) * place_[i] + ((s3 - 2 * s2 + s) * h) * speed_[i] +
          (3 * s2 - 2 * s3) * place_[i + 1] + ((s3 - s2) * h) * speed_[i + 1];

@@ -14,6 +14,7 @@
 namespace chainreel {
 namespace {
 
+constexpr double kKeptBesideMarks = 0.5;  // of the scale without them
 constexpr int kPasses = 60;  // to the last bit also where the room takes half of the area
 
 Room room_at(const Room& room, double scale) {
@@ -62,7 +63,13 @@ void fit_to(Camera& camera, const FitBox& box, const Rect& area, double margin) 
     return;
   }
   fit(camera, bare, area, margin);
-  for (int pass = 0; pass < kPasses; ++pass) fit(camera, box.box(camera.scale, margin), area, 0);
+  // Marks that would fill the area by themselves stick out of it rather than shrink the motion to nothing.
+  const double least = kKeptBesideMarks * camera.scale;
+  for (int pass = 0; pass < kPasses && camera.scale > least; ++pass) fit(camera, box.box(camera.scale, margin), area, 0);
+  if (camera.scale > least) return;
+  camera.scale = least;
+  const Rect shown = box.box(least, margin);
+  camera.origin = center_of(area) - least * center_of(shown);
 }
 
 namespace {

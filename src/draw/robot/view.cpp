@@ -57,6 +57,8 @@ Camera planar_view(const Chain& chain) {
   camera.up = up_in(plane, chain.gravity);
   camera.right = camera.up.cross(plane.normal).normalized();
   double rightward = camera.right.x();
+  // Where x is upright z faces the viewer, lest turns be seen from behind; the first link decides where x is not in the plane.
+  if (std::abs(rightward) <= kNegligible) rightward = camera.right.cross(camera.up).z();
   if (std::abs(rightward) <= kNegligible && chain.bodies.size() > 1)
     rightward = camera.right.dot(first_link(chain));
   if (rightward < -kNegligible) camera.right = -camera.right;

@@ -127,6 +127,18 @@ TEST(Trail, IsShorterAtTheBeginningAndAbsentAtTheStart) {
   EXPECT_LT(test::distance(test::all_of<Trail>(early).at(0).points.front().p, on_circle(0)), 1e-12);
 }
 
+// A pause repeats its instant: what was drawn there was no number, and no vector file had a trail.
+TEST(Trail, GoesOnThroughAPause) {
+  TipPath path;
+  for (int k = 0; k < 60; ++k) path.add(std::min(k, 30) / 60.0, on_circle(std::min(k, 30) / 60.0), {});
+  Picture picture;
+  draw_trail(picture, path, 45, light_theme().curve[0], -1);
+  EXPECT_TRUE(test::all_finite(picture));
+  const auto points = test::all_of<Trail>(picture).at(0).points;
+  EXPECT_LT(test::distance(points.front().p, on_circle(0)), 1e-12);
+  EXPECT_LT(test::distance(points.back().p, on_circle(0.5)), 1e-12);
+}
+
 TEST(Trail, NeverCrossesAGap) {
   TipPath path;
   for (int k = 0; k < 60; ++k) {

@@ -38,6 +38,22 @@ TEST(Fit, FillsTheAreaInOneDirectionAndIsCentredInBoth) {
   EXPECT_NEAR(page.y0 - kFitArea.y0, kFitArea.y1 - page.y1, kConverged);
 }
 
+// Rooms that fill the area by themselves would leave a motion no scale at all: that of an arm on a square page below plots was 2e13 m long.
+TEST(Fit, KeepsHalfOfTheScaleWhereRoomsFillTheArea) {
+  for (const double radius : {0.1, 0.2, 0.4, 3.0}) {
+    FitBox box;
+    box.add(room_around(radius), {0, 0});
+    box.add(room_around(radius), {1.7, -0.9});
+    Camera camera, bare;
+    fit_to(camera, box, kFitArea, kMargin);
+    fit(bare, {0, -0.9, 1.7, 0}, kFitArea, kMargin);
+    EXPECT_GE(camera.scale, 0.5 * bare.scale) << radius;
+    const Point middle = camera.project({0.85, -0.45, 0}), center = center_of(kFitArea);
+    EXPECT_NEAR(middle.x, center.x, kConverged);
+    EXPECT_NEAR(middle.y, center.y, kConverged);
+  }
+}
+
 TEST(Fit, KeepsEveryPlaceWithItsRoomInside) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> metres(-3, 3), room(0, 0.08);

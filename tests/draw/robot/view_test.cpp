@@ -37,6 +37,11 @@ TEST(View, ShowsAnUprightPlaneFromTheSideWhereXPointsRight) {
   expect_axes(view_of(chain), Vector3d::UnitX(), Vector3d::UnitZ());
 }
 
+TEST(View, ShowsTurnsFromTheFrontWhereGravityPointsAlongX) {
+  expect_axes(view_of(test::model("rr", {-9.81, 0, 0})), -Vector3d::UnitY(), Vector3d::UnitX());
+  expect_axes(view_of(test::model("rr", {9.81, 0, 0})), Vector3d::UnitY(), -Vector3d::UnitX());
+}
+
 TEST(View, PointsTheFirstLinkRightWhereXIsNotInThePlane) {
   const Chain ahead = test::two_links(Vector3d::UnitY(), Vector3d::UnitX(), {0, 0, -9.81});
   ASSERT_TRUE(ahead.planar);
