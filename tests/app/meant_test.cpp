@@ -119,6 +119,8 @@ TEST(Meant, WhatIsAskedForInVainIsSaid) {
   EXPECT_EQ(said({"--layout", "transparent"}), "") << "nobody named its words";
   EXPECT_THAT(said(shadow), HasSubstr("shadow: not drawn"));
   EXPECT_EQ(said(with(shadow, {"--azimuth", "30deg"})), "");
+  EXPECT_THAT(said({"--set", "ellipse.reading=belt"}), HasSubstr("'ellipse.reading' is of the layer `ellipse`"));
+  EXPECT_EQ(said({"--set", "ellipse.reading=belt", "--set", "draw=[+ellipse]"}), "");
   EXPECT_THAT(said({"--set", "plot=['1 / 0 * t']"}, 3), HasSubstr("is not finite at any instant"));
   EXPECT_EQ(said({"--set", "plot=['1 / t']"}), "") << "but for one";
   EXPECT_THAT(said({"--fit", "[100, 100, 101, 101]"}, 3), HasSubstr("'camera.fit' shows nothing"));

@@ -45,6 +45,12 @@ void say_what_is_asked_in_vain(const PreparedScene& prepared, std::set<std::stri
     if (!missing.empty() && said.insert(note).second) std::fprintf(stderr, "note: %s\n", note.c_str());
   };
   say([&](const std::string& layer) { return is_transparent(scene) && layer_needs(layer, LayerNeeds::words); }, "as transparent pictures have no words around their scene");
+  const bool has_ellipse = std::ranges::count(scene.draw, "ellipse") > 0;
+  for (const auto& [key, place] : scene.places)
+    if (!has_ellipse && key.starts_with("ellipse.")) {
+      const std::string note = to_string(Problem{"'" + key + "' is of the layer `ellipse`, which is not drawn: add draw: [+ellipse]", place});
+      if (said.insert(note).second) std::fprintf(stderr, "note: %s\n", note.c_str());
+    }
   say([&](const std::string& layer) { return is_flat && (layer == "ground" || layer == "shadow"); }, "as both are seen obliquely alone: give camera.azimuth or camera.elevation");
 }
 
@@ -54,7 +60,7 @@ PreparedScene prepare_panel(Scene scene, bool meshes, bool quiet, double between
   prepared.simulation = prepare(prepared.scene, meshes);
   if (!quiet) {
     say_what_is_left_out(wanted, prepared, said);
-    say_what_is_asked_in_vain(prepared, said);
+    if (meshes) say_what_is_asked_in_vain(prepared, said);
   }
   choose_automatically(prepared, quiet, between);
   return prepared;
