@@ -26,7 +26,7 @@ enum class LayerNeeds {
   ROW(ground, "ground", 6, nothing, "seen obliquely: a grid on the ground where the robot stands on it")    \
   ROW(g, "g", 11, words, "gravity: a small arrow that says which way it acts, where it does")             \
   ROW(constraints, "constraints", 7, nothing,                                                               \
-      "what the robot is tied to: lines and planes with hatching, curves, rods")                            \
+      "what the robot is tied to: lines and planes with hatching, curves, rods; joints that are held have a square, joints tied to one another a dashed line") \
   ROW(chain_base, "chain", 1, nothing, "the mechanism")                                                     \
   ROW(ellipse_inside, "ellipse", 0, end_effector,                                                            \
       "the effective mass of the end effector, as `ellipse:` says")                                         \
@@ -43,6 +43,7 @@ enum class LayerNeeds {
   ROW(slider_springs, "springs", 8, nothing,                                                                \
       "torques that are linear in a coordinate or a rate as the springs and dampers that they are")         \
   ROW(chain_links, "chain", 0, nothing, "")                                                                 \
+  ROW(couplings, "constraints", 0, nothing, "")                                                             \
   ROW(target_pulls, "target", 0, nothing, "")                                                               \
   ROW(joint_springs, "springs", 0, nothing, "")                                                             \
   ROW(limits, "limits", 12, nothing, "the limits of joints that the motion comes near to")                  \

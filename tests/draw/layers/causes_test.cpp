@@ -503,5 +503,40 @@ TEST(DefaultLayers, ShowTheCauseAndLeaveSmallPanelsAlone) {
   EXPECT_TRUE(has(read_scene("assets/scenes/pen_drift.yaml", {"draw=[+target]"}), "target")) << "who asks gets it";
 }
 
+// What is tied of coordinates has no line in the world: it is told at their joints.
+TEST(ConstraintsLayer, MarksJointsThatAreHeldOrTied) {
+  const std::vector<std::string> still{"start.q=[60deg, -60deg, -60deg]", "start.qd=[0, 0, 0]"};
+  const auto scene = [&](const std::string& constraints) {
+    std::vector<std::string> all = still;
+    if (!constraints.empty()) all.push_back("constraints=[" + constraints + "]");
+    return Cause("rrr_free", all, 0.5);
+  };
+  const auto squares = [](const Picture& picture) {
+    return test::all_of<Polygon>(picture, [](const Polygon& p) { return p.count == 4 && p.paint.fill == light().ink; });
+  };
+  const auto rings = [](const Picture& picture) {
+    return test::all_of<Arc>(picture, [](const Arc& arc) { return arc.color == light().constraint; });
+  };
+  const Cause held = scene("{joint: {name: joint2, value: -60deg}}"), tied = scene("{linear: {coefficients: {joint1: 1, joint3: 1}, value: 0}}"), free = scene("");
+  for (const int k : {0, 20}) {
+    const auto joint = [&](const Cause& cause, const Film& film, int body) {
+      Workspace ws(cause.simulation.chain);
+      compute_kinematics(cause.simulation.chain, ws, cause.run.q_at(k), cause.run.qd_at(k));
+      return film.camera().project(pose_of(ws, body).translation());
+    };
+    const Film of_held = held.film(), of_tied = tied.film();
+    const auto square = squares(of_held.frame(k));
+    ASSERT_EQ(square.size(), 1u);
+    EXPECT_LT(norm(0.5 * (square[0].corners[0] + square[0].corners[2]) - joint(held, of_held, 2)), kCauseRoundOff);
+    EXPECT_TRUE(rings(of_held.frame(k)).empty());
+    const auto ring = rings(of_tied.frame(k));
+    ASSERT_EQ(ring.size(), 2u);
+    EXPECT_LT(norm(ring[0].center - joint(tied, of_tied, 1)), kCauseRoundOff);
+    EXPECT_LT(norm(ring[1].center - joint(tied, of_tied, 3)), kCauseRoundOff);
+    EXPECT_TRUE(squares(of_tied.frame(k)).empty());
+    EXPECT_TRUE(squares(free.film().frame(k)).empty() && rings(free.film().frame(k)).empty()) << "negative control";
+  }
+}
+
 }  // namespace
 }  // namespace chainreel
