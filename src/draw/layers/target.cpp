@@ -161,11 +161,11 @@ class Target : public Layer {
       const Point held = panel.camera().project(anchor);
       if (is_drawable(held) && norm(from - held) > kPlace) draw_coil(picture, held, from, panel.look().rails, color, panel.clip());
     };
-    if (target.is_one_spring())
-      draw_pull_from(place);
-    else
+    // What pushes away is no spring.
+    if (target.is_one_spring() && target.pulls.front().kp > 0) draw_pull_from(place);
+    if (!target.is_one_spring())
       for (const TaskTarget::Pull& pull : target.pulls)
-        if (pull.kp != 0) draw_pull_from(tip + pull.axis.dot(place - tip) * pull.axis);
+        if (pull.kp > 0) draw_pull_from(tip + pull.axis.dot(place - tip) * pull.axis);
     const double radius = panel.marks() * kPlace;
     // Of a place that is reached the link would leave the ends of the cross.
     const Color mark = color.faded(std::clamp(norm(from - at) / link_end(panel.look()) - 0.5, 0.0, 1.0));
