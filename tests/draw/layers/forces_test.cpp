@@ -302,6 +302,35 @@ TEST(TargetLayer, KeepsWordsOffItsOutline) {
   EXPECT_GT(seen, cause.run.size()) << "the words of both torques most of the time";
 }
 
+// Of two joints of which one follows a pose, and the other has a spring of its own or computed torque beside it.
+TEST(TargetLayer, IsOfThoseJointsThatFollow) {
+  const auto look = [](const std::string& torque) {
+    const Cause cause("rr_free", {"torque=" + torque, "draw=[chain, target, springs, torque]", "start.q=[0.5, 0.5]"}, 0.2);
+    const Picture picture = cause.film().frame(2);
+    struct {
+      std::size_t ghosts, coils, spirals;
+    } seen{test::all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.stroke_width > 0 && c.paint.fill.a == 0; }).size(), 0, 0};
+    for (const Trail& wire : wires(picture, light().torque)) {
+      seen.coils += wire.points.size() == 49;
+      seen.spirals += wire.points.size() == 57;
+    }
+    return seen;
+  };
+  const auto own_spring = look("{pd: {kp: [50, 0], kd: [5, 0], q: [0.2, 0]}, plus: [0, '-30*(q2-1)']}");
+  EXPECT_EQ(own_spring.ghosts, 1u);
+  EXPECT_EQ(own_spring.coils, 1u);
+  EXPECT_EQ(own_spring.spirals, 1u);
+  const auto two_springs = look("{pd: {kp: [50, 20], kd: [5, 1], q: [0.2, 0.9]}, plus: ['-30*(q1-1)', 0], gravity_compensation: true}");
+  EXPECT_EQ(two_springs.ghosts, 2u);
+  EXPECT_EQ(two_springs.coils, 1u);
+  EXPECT_EQ(two_springs.spirals, 0u);
+  const auto by_model = look("[{computed_torque: {kp: 100, kd: 20, q: 1}}, '-3*q2']");
+  EXPECT_EQ(by_model.ghosts, 1u);
+  EXPECT_EQ(by_model.spirals, 1u);
+  // Negative control: computed torque of the whole chain has all of it follow.
+  EXPECT_EQ(look("{computed_torque: {kp: 100, kd: 20, q: [1, 0]}}").ghosts, 2u);
+}
+
 // In a film words come and go within some frames; a picture alone has them in full.
 TEST(Stills, HaveWordsInFull) {
   const Cause cause("rr_torque", {"layout=scene"}, 4);
