@@ -9,6 +9,7 @@
 #include "draw/cause.hpp"
 #include "draw/chains.hpp"
 #include "draw/film/film.hpp"
+#include "draw/layers/devices.hpp"
 #include "draw/layers/vectors.hpp"
 #include "draw/page/word_plan.hpp"
 #include "draw/shapes.hpp"
@@ -329,6 +330,20 @@ TEST(TargetLayer, IsOfThoseJointsThatFollow) {
   EXPECT_EQ(by_model.spirals, 1u);
   // Negative control: computed torque of the whole chain has all of it follow.
   EXPECT_EQ(look("{computed_torque: {kp: 100, kd: 20, q: [1, 0]}}").ghosts, 2u);
+}
+
+// A wrist: joint 2 has joint 3 in its place, behind which the hand begins, which goes along y where all is zero.
+TEST(AngleLayer, OfAJointWithoutALinkIsAlongTheNextOne) {
+  const auto zero_of = [](const std::string& dh) {
+    const Cause cause("rr_free", {"model={dh: " + dh + "}", "start={q: [0, 0.4, 0.9]}", "torque=[0, 0, 0]", "draw=[chain, angles]", "camera={azimuth: 0deg, elevation: 0deg}"}, 0.1);
+    const Film film = cause.film();
+    const StagedRun& motion = film.panel(0).motion();
+    return joint_zero(motion.chain(), motion.skeleton(), motion.pose_at(0), 2).along;
+  };
+  // The last row turns the hand by a quarter about the axis of joint 2.
+  const Eigen::Vector3d turned = zero_of("[[0.5, 0, 0, 0], [0, 0, 0, 90deg], [0.3, 0, 0, 0]]"), straight = zero_of("[[0.5, 0, 0, 0], [0, 0, 0, 0], [0.3, 0, 0, 0]]");
+  EXPECT_NEAR(turned.dot(straight), 0, kCauseRoundOff);
+  EXPECT_NEAR(zero_of("[[0.5, 0, 0, 0], [0.2, 0, 0, 0], [0.3, 0, 0, 0]]").dot(straight), 1, kCauseRoundOff) << "negative control: with a link of its own";
 }
 
 // In a film words come and go within some frames; a picture alone has them in full.
