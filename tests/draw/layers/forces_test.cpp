@@ -11,6 +11,7 @@
 #include "draw/film/film.hpp"
 #include "draw/layers/devices.hpp"
 #include "draw/layers/vectors.hpp"
+#include "draw/page/coils.hpp"
 #include "draw/page/word_plan.hpp"
 #include "draw/shapes.hpp"
 #include "draw/robot/made_bodies.hpp"
@@ -313,7 +314,7 @@ TEST(TargetLayer, IsOfThoseJointsThatFollow) {
     } seen{test::all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.stroke_width > 0 && c.paint.fill.a == 0; }).size(), 0, 0};
     for (const Trail& wire : wires(picture, light().torque)) {
       seen.coils += wire.points.size() == 49;
-      seen.spirals += wire.points.size() == 57;
+      seen.spirals += wire.points.size() > 90;
     }
     return seen;
   };
@@ -344,6 +345,46 @@ TEST(AngleLayer, OfAJointWithoutALinkIsAlongTheNextOne) {
   const Eigen::Vector3d turned = zero_of("[[0.5, 0, 0, 0], [0, 0, 0, 90deg], [0.3, 0, 0, 0]]"), straight = zero_of("[[0.5, 0, 0, 0], [0, 0, 0, 0], [0.3, 0, 0, 0]]");
   EXPECT_NEAR(turned.dot(straight), 0, kCauseRoundOff);
   EXPECT_NEAR(zero_of("[[0.5, 0, 0, 0], [0.2, 0, 0, 0], [0.3, 0, 0, 0]]").dot(straight), 1, kCauseRoundOff) << "negative control: with a link of its own";
+}
+
+// Spirals end at their link and at their pin however often they are wound up or unwound, in pieces that look round.
+TEST(SpringLayer, HoldsSpiralsOfManyTurnsAtBothEnds) {
+  const PageTurn turn{{0, 0}, {1, 0}, {0, 1}};
+  const Color red{1, 0, 0, 1};
+  const auto spiral = [&](double q) {
+    Picture picture;
+    draw_spiral(picture, turn, q, 0, 1, red, 0, {});
+    return test::all_of<Trail>(picture);
+  };
+  const auto turned = [](const std::vector<Trail>& parts) {
+    double sum = 0, most = 0;
+    for (const Trail& part : parts)
+      for (std::size_t i = 1; i < part.points.size(); ++i) {
+        const Point a = part.points[i - 1].p, b = part.points[i].p;
+        sum += std::abs(std::atan2(cross(a, b), dot(a, b)));
+        most = std::max(most, std::abs(std::atan2(cross(a, b), dot(a, b))));
+      }
+    EXPECT_LT(most, 0.16);
+    return sum;
+  };
+  for (const double q : {-1e4, -1000.3, -40.0, -13.0, -12.0, -3.0, 0.0, 3.0, 15.0, 15.8, 40.0, 777.7}) {
+    const std::vector<Trail> parts = spiral(q);
+    const bool has_more = std::abs(5 * std::numbers::pi - q) > 9 * std::numbers::pi;
+    ASSERT_EQ(parts.size(), has_more ? 2u : 1u) << q;
+    const Point in = parts.front().points.front().p, out = parts.back().points.back().p;
+    EXPECT_NEAR(std::remainder(std::atan2(in.y, in.x) - q, 2 * std::numbers::pi), 0, kCauseRoundOff) << q;
+    EXPECT_NEAR(std::remainder(std::atan2(out.y, out.x) - std::numbers::pi, 2 * std::numbers::pi), 0, kCauseRoundOff) << q;
+    EXPECT_NEAR(norm(out), kSpiralOuter, kCauseRoundOff) << q;
+    EXPECT_LE(turned(parts), 9 * std::numbers::pi + kCauseRoundOff) << q;
+    // Its ends beside the gap fade, and those at link and pin do not.
+    if (has_more && q != -13) {
+      EXPECT_LT(parts.front().points.back().alpha, 0.35) << q;
+      EXPECT_LT(parts.back().points.front().alpha, 0.35) << q;
+    }
+    EXPECT_EQ(parts.front().points.front().alpha, 1) << q;
+    EXPECT_EQ(parts.back().points.back().alpha, 1) << q;
+  }
+  EXPECT_NEAR(turned(spiral(0)), 5 * std::numbers::pi, 1e-6) << "negative control: at rest it is whole";
 }
 
 // In a film words come and go within some frames; a picture alone has them in full.
