@@ -27,8 +27,8 @@ Story of_all(const Stage& stage, PlotQuantity quantity) {
 // " [m]": of the coordinates that are shown.
 std::string unit_of_driven(const Chain& chain, const std::vector<bool>& is_driven) {
   bool turns = false, slides = false;
-  for (const Body& body : chain.bodies) {
-    const Joint& joint = body.joint;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {  // the world has no joint
+    const Joint& joint = chain.bodies[b].joint;
     if ((joint.kind != JointKind::revolute && joint.kind != JointKind::prismatic) || !is_driven[std::size_t(joint.q_index)]) continue;
     (joint.kind == JointKind::revolute ? turns : slides) = true;
   }

@@ -347,6 +347,19 @@ TEST(AngleLayer, OfAJointWithoutALinkIsAlongTheNextOne) {
   EXPECT_NEAR(zero_of("[[0.5, 0, 0, 0], [0.2, 0, 0, 0], [0.3, 0, 0, 0]]").dot(straight), 1, kCauseRoundOff) << "negative control: with a link of its own";
 }
 
+// By rule the coordinates of springs are told in the units of their own joints.
+TEST(StoryOfSprings, IsToldWhereNothingElseActs) {
+  const auto page = [](const std::string& model, const std::string& start, const std::string& torque) {
+    return Cause("rr_free", {"model=" + model, "start=" + start, "gravity=[0, 0, 0]", "torque=" + torque}, 0.3).film().static_layer();
+  };
+  const Picture slider = page("{links: [0.5], masses: [1], joints: P}", "{q: [0.3]}", "['-40*q1']");
+  EXPECT_TRUE(has_words(slider, "[m]"));
+  EXPECT_FALSE(has_words(slider, "rad"));
+  const std::string two = "{links: [0.5, 0.4], masses: [2, 1]}", start = "{q: [0.5, 0.5]}";
+  EXPECT_TRUE(has_words(page(two, start, "[0, '-3*q2']"), "[rad]")) << "negative control: a spring alone";
+  EXPECT_TRUE(has_words(page(two, "{q: [0.5, 0.5]}", "['-2*q1', '-3*q2']"), "[rad]"));
+}
+
 // Spirals end at their link and at their pin however often they are wound up or unwound, in pieces that look round.
 TEST(SpringLayer, HoldsSpiralsOfManyTurnsAtBothEnds) {
   const PageTurn turn{{0, 0}, {1, 0}, {0, 1}};
