@@ -347,7 +347,7 @@ TEST(AngleLayer, OfAJointWithoutALinkIsAlongTheNextOne) {
   EXPECT_NEAR(zero_of("[[0.5, 0, 0, 0], [0.2, 0, 0, 0], [0.3, 0, 0, 0]]").dot(straight), 1, kCauseRoundOff) << "negative control: with a link of its own";
 }
 
-// By rule the coordinates of springs are told in the units of their own joints.
+// By rule the coordinates of springs are told where nothing else acts, in the units of their own joints.
 TEST(StoryOfSprings, IsToldWhereNothingElseActs) {
   const auto page = [](const std::string& model, const std::string& start, const std::string& torque) {
     return Cause("rr_free", {"model=" + model, "start=" + start, "gravity=[0, 0, 0]", "torque=" + torque}, 0.3).film().static_layer();
@@ -356,6 +356,11 @@ TEST(StoryOfSprings, IsToldWhereNothingElseActs) {
   EXPECT_TRUE(has_words(slider, "[m]"));
   EXPECT_FALSE(has_words(slider, "rad"));
   const std::string two = "{links: [0.5, 0.4], masses: [2, 1]}", start = "{q: [0.5, 0.5]}";
+  for (const char* torque : {"[{pd: {kp: 10, q: 0.5, kd: 1}}, '-3*q2 - qd2']", "[{computed_torque: {kp: 100, kd: 20, q: 1}}, '-3*q2']", "['sin(t)', '-3*q2']"}) {
+    const Picture both = page(two, start, torque);
+    EXPECT_TRUE(has_words(both, "[N m]")) << torque;
+    EXPECT_FALSE(has_words(both, "[rad]")) << torque;
+  }
   EXPECT_TRUE(has_words(page(two, start, "[0, '-3*q2']"), "[rad]")) << "negative control: a spring alone";
   EXPECT_TRUE(has_words(page(two, "{q: [0.5, 0.5]}", "['-2*q1', '-3*q2']"), "[rad]"));
 }
