@@ -138,6 +138,8 @@ std::vector<double> references_along(const Simulation& simulation, const Traject
     references.insert(references.end(), q.begin(), q.end());
     const Vec own = Vec(references).last(n);
     if (!simulation.torque->reference_at(trajectory.t[std::size_t(k)], own)) return {};
+    for (std::size_t i = 0; i < n; ++i)
+      if (!simulation.torque->follows(i)) own[i] = q[i];
   }
   return references;
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 #include "draw/layers/devices.hpp"
 #include "scene/text/write_scene.hpp"
+#include "sim/torques_along.hpp"
 
 namespace chainreel {
 namespace {
@@ -27,8 +29,8 @@ Story of_all(const Stage& stage, PlotQuantity quantity) {
 // " [m]": of the coordinates that are shown.
 std::string unit_of_driven(const Chain& chain, const std::vector<bool>& is_driven) {
   bool turns = false, slides = false;
-  for (const Body& body : chain.bodies) {
-    const Joint& joint = body.joint;
+  for (std::size_t b = 1; b < chain.bodies.size(); ++b) {  // the world has no joint
+    const Joint& joint = chain.bodies[b].joint;
     if ((joint.kind != JointKind::revolute && joint.kind != JointKind::prismatic) || !is_driven[std::size_t(joint.q_index)]) continue;
     (joint.kind == JointKind::revolute ? turns : slides) = true;
   }
@@ -38,13 +40,17 @@ std::string unit_of_driven(const Chain& chain, const std::vector<bool>& is_drive
 // Of the coordinates those that springs drive; empty where there are no springs, or more than springs.
 std::vector<PlotCurves> sprung_coordinates(const Stage& stage, const StagedRun& motion) {
   std::vector<bool> is_driven(std::size_t(motion.chain().nq), false);
-  bool has_spring = false;
+  const auto n = std::size_t(motion.chain().nv);
+  std::vector<bool> is_sprung(n, false);
   for (const Device& device : devices_of(stage, motion)) {
     if (!device.is_all_of_it()) return {};
-    if (!device.drive.is_spring()) continue;
-    has_spring = is_driven[std::size_t(motion.chain().bodies[std::size_t(device.body)].joint.q_index)] = true;
+    is_sprung[std::size_t(device.drive.freedom)] = true;
+    is_driven[std::size_t(motion.chain().bodies[std::size_t(device.body)].joint.q_index)] = true;
   }
-  if (!has_spring) return {};
+  if (std::ranges::none_of(is_sprung, std::identity())) return {};
+  const std::vector<double> torques = torques_along(*motion.simulation(), motion.trajectory());
+  for (std::size_t at = 0; at < torques.size(); ++at)
+    if (torques[at] != 0 && !is_sprung[at % n]) return {};
   std::vector<PlotCurves> plots = curves_of(motion, PlotQuantity::q);
   std::vector<PlotCurve>& curves = plots.front().curves;
   for (std::size_t i = curves.size(); i-- > 0;)

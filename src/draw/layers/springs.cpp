@@ -44,11 +44,27 @@ std::vector<Device> devices_of(const Stage& stage, const StagedRun& motion) {
   return devices;
 }
 
+namespace {
+
+// Where a body's link goes, in B: joints in one place, as of a wrist, have no link between them, and go where the next one does as
+// all of them stand at zero.
+Vector3d way_along_link(const Chain& chain, const Skeleton& skeleton, int body) {
+  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();  // of body `at` in B
+  for (int at = body;;) {
+    const auto link = std::find_if(skeleton.links.begin(), skeleton.links.end(), [at](const LinkSegment& one) { return one.body == at; });
+    if (link != skeleton.links.end()) return turned * (link->to - link->from);
+    const auto next = std::find_if(chain.bodies.begin(), chain.bodies.end(), [at](const Body& one) { return one.parent == at; });
+    if (next == chain.bodies.end()) return Vector3d::UnitX();
+    turned = turned * next->joint.X_PJ.linear();
+    at = int(next - chain.bodies.begin());
+  }
+}
+
+}  // namespace
+
 JointZero joint_zero(const Chain& chain, const Skeleton& skeleton, const Workspace& ws, int body) {
   const Joint& joint = chain.bodies[std::size_t(body)].joint;
-  const auto link = std::find_if(skeleton.links.begin(), skeleton.links.end(),
-                                 [body](const LinkSegment& one) { return one.body == body; });
-  Vector3d along = link == skeleton.links.end() ? Vector3d::UnitX() : Vector3d(link->to - link->from);
+  Vector3d along = way_along_link(chain, skeleton, body);
   const auto across = [&joint](const Vector3d& v) { return Vector3d(v - v.dot(joint.axis) * joint.axis); };
   for (const Vector3d& other : {Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitY())})
     if (across(along).norm() < 1e-6 * std::max(1.0, along.norm())) along = other;

@@ -90,22 +90,15 @@ class Target : public Layer {
     draw_links(picture, drawing, *followed.ws, panel.clip());
   }
 
-  // What no gain drives follows nothing: it has no target, and stands as it stands.
+  // What follows nothing has no target, and stands as it stands.
   static Followed followed_by(const StagedRun& motion, std::vector<double> q) {
     const Chain& chain = motion.chain();
     const auto n = std::size_t(chain.nv);
     Followed followed{std::move(q), {}, std::make_unique<Workspace>(chain), std::vector<double>(n), {}};
-    std::vector<bool> follows(n, true);
-    const std::vector<LinearDrive> drives = linear_drives(*motion.simulation());
-    if (std::ranges::any_of(drives, &LinearDrive::follows)) follows.assign(n, false);
-    for (const LinearDrive& drive : drives) {
+    for (const LinearDrive& drive : linear_drives(*motion.simulation()))
       if (drive.follows && drive.is_spring()) followed.springs.push_back(drive);
-      if (drive.follows) follows[std::size_t(drive.freedom)] = true;
-    }
-    for (std::size_t at = 0; at < followed.q.size(); ++at)
-      if (!follows[at % n]) followed.q[at] = motion.trajectory().q_at(int(at / n))[at % n];
     for (const Body& body : chain.bodies)
-      followed.is_driven.push_back(&body != &chain.bodies.front() && follows[std::size_t(body.joint.v_index)]);
+      followed.is_driven.push_back(&body != &chain.bodies.front() && motion.simulation()->torque->follows(std::size_t(body.joint.v_index)));
     return followed;
   }
 
@@ -161,11 +154,11 @@ class Target : public Layer {
       const Point held = panel.camera().project(anchor);
       if (is_drawable(held) && norm(from - held) > kPlace) draw_coil(picture, held, from, panel.look().rails, color, panel.clip());
     };
-    if (target.is_one_spring())
-      draw_pull_from(place);
-    else
+    // What pushes away is no spring.
+    if (target.is_one_spring() && target.pulls.front().kp > 0) draw_pull_from(place);
+    if (!target.is_one_spring())
       for (const TaskTarget::Pull& pull : target.pulls)
-        if (pull.kp != 0) draw_pull_from(tip + pull.axis.dot(place - tip) * pull.axis);
+        if (pull.kp > 0) draw_pull_from(tip + pull.axis.dot(place - tip) * pull.axis);
     const double radius = panel.marks() * kPlace;
     // Of a place that is reached the link would leave the ends of the cross.
     const Color mark = color.faded(std::clamp(norm(from - at) / link_end(panel.look()) - 0.5, 0.0, 1.0));

@@ -16,8 +16,12 @@ constexpr double kCoilRadius = 0.0175;  // within a full rail, with a gap to its
 constexpr double kLoop = 0.35;         // of the radius: how far a winding swings along the coil, which makes its loops
 constexpr double kLead = 0.012;        // of straight wire at both ends
 constexpr double kCylinder = 0.58, kPiston = 0.40, kCylinderWidth = 0.024;  // shares of the length; units of H
-constexpr double kSpiralInner = 0.019, kSpiralWindings = 2, kFewestWindings = 0.5;
-constexpr int kPiecesOfSpiral = 56;
+constexpr double kSpiralInner = 0.019, kSpiralWindings = 2;
+constexpr int kPiecesOfSpiral = 56;          // at least
+constexpr double kPieceOfSpiral = 0.15;      // rad, at most
+constexpr double kMostWindings = 4.5;        // more are a disc to the eye
+constexpr double kSpiralBreak = 0.16;        // of the way from inside to outside: the gap of a spiral that has more
+constexpr double kSpiralFade = 0.14;         // ... in which its ends beside the gap fade
 constexpr double kVanesInner = 0.0175;
 constexpr double kRoundCoil = 0.0085;  // half its width
 constexpr int kRoundWindings = 6;
@@ -77,17 +81,34 @@ Point PageTurn::at(double radius, double angle) const {
 void draw_spiral(Picture& picture, const PageTurn& turn, double q, double rest, double size, Color color, int clip, Color casing) {
   const double width = width_of_wire(size);
   // The fixed end is opposite to the link at rest; a link that turns on unwinds it.
-  const double outer = rest + std::numbers::pi;
-  const double span = std::max(2 * std::numbers::pi * kSpiralWindings + outer - q, 2 * std::numbers::pi * kFewestWindings);
-  Trail path;
-  path.color = color;
-  for (int i = 0; i <= kPiecesOfSpiral; ++i) {
-    const double share = double(i) / kPiecesOfSpiral;
-    const double radius = size * (kSpiralInner + share * (kSpiralOuter - kSpiralInner));
-    path.points.push_back({turn.at(radius, outer - span * (1 - share)), width, 1});
+  const double outer = rest + std::numbers::pi, most = 2 * std::numbers::pi * kMostWindings;
+  // Below zero it is unwound and winds up again the other way round.
+  const double span = 2 * std::numbers::pi * kSpiralWindings + outer - q;
+  if (!std::isfinite(span)) return;
+  const double shown = std::copysign(std::min(most, std::abs(span)), span);
+  const int pieces = std::max(kPiecesOfSpiral, int(std::ceil(std::abs(shown) / kPieceOfSpiral)));
+  // Of more windings than can be told apart both ends stay where they are, with a gap between them that opens over half a turn.
+  const double open = std::min(1.0, (std::abs(span) - std::abs(shown)) / std::numbers::pi);
+  const double gap = open * kSpiralBreak / 2, fade = open * kSpiralFade;
+  const auto add_part = [&](double from, double to, double angle) {
+    Trail path;
+    path.color = color;
+    for (int i = 0; i <= pieces; ++i) {
+      const double share = double(i) / pieces;
+      if (share < from || share > to) continue;
+      const double radius = size * (kSpiralInner + share * (kSpiralOuter - kSpiralInner));
+      const double beside = std::abs(share - 0.5) - gap;
+      path.points.push_back({turn.at(radius, angle + shown * share), width, fade > 0 ? std::clamp(beside / fade, 0.0, 1.0) : 1.0});
+    }
+    add_wire(picture, std::move(path), clip, casing);
+  };
+  if (open > 0) {
+    add_part(0, 0.5 - gap, q);
+    add_part(0.5 + gap, 1, outer - shown);
+  } else {
+    add_part(0, 1, outer - shown);
   }
-  const Point end = path.points.back().p;
-  add_wire(picture, std::move(path), clip, casing);
+  const Point end = turn.at(size * kSpiralOuter, outer);
   const double pin = 1.1 * width;
   picture.add(Ellipse{end, {pin, 0}, {0, pin}, {color, {}, 0}}, clip);
 }

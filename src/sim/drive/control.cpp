@@ -1,6 +1,7 @@
 #include "sim/drive/control.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/csv.hpp"
 #include "core/format.hpp"
@@ -41,6 +42,23 @@ class CsvTorque final : public TorqueLaw {
 void add_multiple(std::vector<Quad>& powers, const std::vector<Quad>& of, Quad factor) {
   powers.resize(std::max(powers.size(), of.size()));
   for (std::size_t k = 0; k < of.size(); ++k) powers[k] += factor * of[k];
+}
+
+// Whether a law is known to do nothing at a freedom.
+bool leaves_alone(const TorqueLaw& law, std::size_t freedom) {
+  const std::optional<AffineTorque> torque = law.affine();
+  if (!torque) return false;
+  const auto is_zero = [](const Quad& one) { return one == Quad(0); };
+  const std::size_t n = torque->powers.size();
+  const auto is_zero_row = [&](const std::vector<Quad>& all) { return std::all_of(all.begin() + std::ptrdiff_t(freedom * n), all.begin() + std::ptrdiff_t((freedom + 1) * n), is_zero); };
+  return std::ranges::all_of(torque->powers[freedom], is_zero) && is_zero_row(torque->K) && is_zero_row(torque->D);
+}
+
+// Of two at one freedom the spring, where there is one: two springs have no rest that is one of theirs, two dampers no rate.
+std::optional<LinearDrive> one_of(const std::vector<LinearDrive>& drives) {
+  if (drives.size() == 1) return drives.front();
+  if (std::ranges::count_if(drives, &LinearDrive::is_spring) != 1) return {};
+  return *std::ranges::find_if(drives, &LinearDrive::is_spring);
 }
 
 void evaluate_affine(const AffineTorque& torque, Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) {
@@ -110,6 +128,8 @@ class PdTorque final : public ReferenceLaw {
     return drives;
   }
   bool reference_at(double t, Vec q) override { return copy_reference(t, q); }
+  // What gains push away follows nothing.
+  bool follows(std::size_t i) const override { return kp_[i] > 0 || (kp_[i] == 0 && kd_[i] > 0); }
 
   std::optional<AffineTorque> affine() const override { return affine_; }
   bool evaluate_in_quad(Quad t, std::span<const Quad> q, std::span<const Quad> qd, std::span<Quad> tau) const override {
@@ -154,6 +174,7 @@ class ComputedTorque final : public ReferenceLaw {
   }
   double price(const Chain& chain) const override { return kPriceOfLaw + reference_->price(true) + price_of_inverse_dynamics(chain); }
   bool reference_at(double t, Vec q) override { return copy_reference(t, q); }
+  bool follows(std::size_t i) const override { return !alone_ || i == *alone_; }
 
  private:
   std::vector<double> kp_, kd_;
@@ -206,21 +227,28 @@ class SumOfTorques final : public TorqueLaw {
       if (StateCorners* own = part->corners()) return own;
     return nullptr;
   }
-  // Of the only part that has any: two springs at one joint have no rest that is one of theirs.
+  // Each freedom by itself: what parts do elsewhere says nothing of it.
   std::vector<LinearDrive> linear_drives(const Chain& chain) const override {
+    std::map<int, std::vector<LinearDrive>> at;
+    for (const auto& part : parts_)
+      for (const LinearDrive& own : part->linear_drives(chain)) at[own.freedom].push_back(own);
     std::vector<LinearDrive> drives;
-    for (const auto& part : parts_) {
-      std::vector<LinearDrive> own = part->linear_drives(chain);
-      if (!own.empty() && !drives.empty()) return {};
-      if (!own.empty()) drives = std::move(own);
+    for (const auto& [freedom, own] : at) {
+      std::optional<LinearDrive> one = one_of(own);
+      if (!one) continue;
+      const auto others = std::ranges::count_if(parts_, [&](const auto& part) { return !leaves_alone(*part, std::size_t(freedom)); });
+      one->whole = one->whole && (parts_.size() == 1 || others == 1);
+      drives.push_back(*one);
     }
-    for (LinearDrive& one : drives) one.whole = one.whole && parts_.size() == 1;
     return drives;
   }
   bool reference_at(double t, Vec q) override {
     for (const auto& part : parts_)
       if (part->reference_at(t, q)) return true;
     return false;
+  }
+  bool follows(std::size_t freedom) const override {
+    return std::ranges::any_of(parts_, [&](const auto& part) { return part->follows(freedom); });
   }
   std::optional<TaskTarget> task_at(double t) override {
     for (const auto& part : parts_)

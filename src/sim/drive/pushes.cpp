@@ -39,6 +39,7 @@ class PushedLaw final : public TorqueLaw {
   StateCorners* corners() override { return law_->corners(); }
   std::vector<LinearDrive> linear_drives(const Chain& chain) const override { return law_->linear_drives(chain); }
   bool reference_at(double t, Vec q) override { return law_->reference_at(t, q); }
+  bool follows(std::size_t freedom) const override { return law_->follows(freedom); }
   std::optional<TaskTarget> task_at(double t) override { return law_->task_at(t); }
 
  private:

@@ -122,6 +122,9 @@ class MixedTorque final : public TorqueLaw {
     }
     return any;
   }
+  bool follows(std::size_t freedom) const override {
+    return std::any_of(controls_.begin(), controls_.end(), [&](const auto& control) { return control.joint == freedom && control.law->follows(freedom); });
+  }
 
  private:
   std::unique_ptr<TorqueLaw> rest_;

@@ -62,6 +62,8 @@ class TorqueLaw {
   virtual const Pushes* pushes() const { return nullptr; }
   // The coordinates of the reference motion that feedback follows, nv numbers; false where there is none.
   virtual bool reference_at(double, Vec) { return false; }
+  // Whether feedback has this freedom follow that: by gains, or by a model.
+  virtual bool follows(std::size_t) const { return false; }
   virtual std::optional<TaskTarget> task_at(double) { return {}; }
   // The law with the digits of Quad; false where it has none.
   virtual bool evaluate_in_quad(Quad, std::span<const Quad>, std::span<const Quad>, std::span<Quad>) const {

@@ -90,7 +90,7 @@ TEST(SpringLayer, WindsASpiralByTheAngleFromItsRest) {
     const Picture picture = pictures.frame(k);
     const Point joint = pictures.camera().project(Vector3d::Zero());
     const auto all = wires(picture, light().torque);
-    const auto spiral = std::find_if(all.begin(), all.end(), [](const Trail& path) { return path.points.size() == 57; });
+    const auto spiral = std::find_if(all.begin(), all.end(), [](const Trail& path) { return path.points.size() >= 57; });
     ASSERT_NE(spiral, all.end());
     // The inner end turns with the link, the outer one stays opposite to it as it rests.
     double turned = 0;
@@ -160,6 +160,11 @@ TEST(TargetLayer, DrawsSpringsOfTheTaskAlongTheAxesThatTheyPullAlong) {
   ASSERT_EQ(one.size(), 1u);
   EXPECT_NEAR(one[0].y / one[0].x, both[1].y / both[0].x, kCauseRoundOff) << "the same way, on a page of its own scale";
   EXPECT_TRUE(coils_of("0").empty());
+  // Negative control: what pushes away from its place is no spring.
+  EXPECT_TRUE(coils_of("-50").empty());
+  const std::vector<Point> away_along_x = coils_of("[-50, 100]");
+  ASSERT_EQ(away_along_x.size(), 1u);
+  EXPECT_NEAR(away_along_x[0].x, 0, kCauseRoundOff);
 }
 
 TEST(ConstraintLayer, DrawsTheLineOfThePenOnceAndHatchedWhereItPresses) {

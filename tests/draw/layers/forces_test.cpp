@@ -9,7 +9,9 @@
 #include "draw/cause.hpp"
 #include "draw/chains.hpp"
 #include "draw/film/film.hpp"
+#include "draw/layers/devices.hpp"
 #include "draw/layers/vectors.hpp"
+#include "draw/page/coils.hpp"
 #include "draw/page/word_plan.hpp"
 #include "draw/shapes.hpp"
 #include "draw/robot/made_bodies.hpp"
@@ -300,6 +302,107 @@ TEST(TargetLayer, KeepsWordsOffItsOutline) {
     }
   }
   EXPECT_GT(seen, cause.run.size()) << "the words of both torques most of the time";
+}
+
+// Of two joints of which one follows a pose, and the other has a spring of its own or computed torque beside it.
+TEST(TargetLayer, IsOfThoseJointsThatFollow) {
+  const auto look = [](const std::string& torque) {
+    const Cause cause("rr_free", {"torque=" + torque, "draw=[chain, target, springs, torque]", "start.q=[0.5, 0.5]"}, 0.2);
+    const Picture picture = cause.film().frame(2);
+    struct {
+      std::size_t ghosts, coils, spirals;
+    } seen{test::all_of<Capsule>(picture, [](const Capsule& c) { return c.paint.stroke_width > 0 && c.paint.fill.a == 0; }).size(), 0, 0};
+    for (const Trail& wire : wires(picture, light().torque)) {
+      seen.coils += wire.points.size() == 49;
+      seen.spirals += wire.points.size() > 90;
+    }
+    return seen;
+  };
+  const auto own_spring = look("{pd: {kp: [50, 0], kd: [5, 0], q: [0.2, 0]}, plus: [0, '-30*(q2-1)']}");
+  EXPECT_EQ(own_spring.ghosts, 1u);
+  EXPECT_EQ(own_spring.coils, 1u);
+  EXPECT_EQ(own_spring.spirals, 1u);
+  const auto two_springs = look("{pd: {kp: [50, 20], kd: [5, 1], q: [0.2, 0.9]}, plus: ['-30*(q1-1)', 0], gravity_compensation: true}");
+  EXPECT_EQ(two_springs.ghosts, 2u);
+  EXPECT_EQ(two_springs.coils, 1u);
+  EXPECT_EQ(two_springs.spirals, 0u);
+  const auto by_model = look("[{computed_torque: {kp: 100, kd: 20, q: 1}}, '-3*q2']");
+  EXPECT_EQ(by_model.ghosts, 1u);
+  EXPECT_EQ(by_model.spirals, 1u);
+  // Negative control: computed torque of the whole chain has all of it follow.
+  EXPECT_EQ(look("{computed_torque: {kp: 100, kd: 20, q: [1, 0]}}").ghosts, 2u);
+}
+
+// A wrist: joint 2 has joint 3 in its place, behind which the hand begins, which goes along y where all is zero.
+TEST(AngleLayer, OfAJointWithoutALinkIsAlongTheNextOne) {
+  const auto zero_of = [](const std::string& dh) {
+    const Cause cause("rr_free", {"model={dh: " + dh + "}", "start={q: [0, 0.4, 0.9]}", "torque=[0, 0, 0]", "draw=[chain, angles]", "camera={azimuth: 0deg, elevation: 0deg}"}, 0.1);
+    const Film film = cause.film();
+    const StagedRun& motion = film.panel(0).motion();
+    return joint_zero(motion.chain(), motion.skeleton(), motion.pose_at(0), 2).along;
+  };
+  // The last row turns the hand by a quarter about the axis of joint 2.
+  const Eigen::Vector3d turned = zero_of("[[0.5, 0, 0, 0], [0, 0, 0, 90deg], [0.3, 0, 0, 0]]"), straight = zero_of("[[0.5, 0, 0, 0], [0, 0, 0, 0], [0.3, 0, 0, 0]]");
+  EXPECT_NEAR(turned.dot(straight), 0, kCauseRoundOff);
+  EXPECT_NEAR(zero_of("[[0.5, 0, 0, 0], [0.2, 0, 0, 0], [0.3, 0, 0, 0]]").dot(straight), 1, kCauseRoundOff) << "negative control: with a link of its own";
+}
+
+// By rule the coordinates of springs are told where nothing else acts, in the units of their own joints.
+TEST(StoryOfSprings, IsToldWhereNothingElseActs) {
+  const auto page = [](const std::string& model, const std::string& start, const std::string& torque) {
+    return Cause("rr_free", {"model=" + model, "start=" + start, "gravity=[0, 0, 0]", "torque=" + torque}, 0.3).film().static_layer();
+  };
+  const Picture slider = page("{links: [0.5], masses: [1], joints: P}", "{q: [0.3]}", "['-40*q1']");
+  EXPECT_TRUE(has_words(slider, "[m]"));
+  EXPECT_FALSE(has_words(slider, "rad"));
+  const std::string two = "{links: [0.5, 0.4], masses: [2, 1]}", start = "{q: [0.5, 0.5]}";
+  for (const char* torque : {"[{pd: {kp: 10, q: 0.5, kd: 1}}, '-3*q2 - qd2']", "[{computed_torque: {kp: 100, kd: 20, q: 1}}, '-3*q2']", "['sin(t)', '-3*q2']"}) {
+    const Picture both = page(two, start, torque);
+    EXPECT_TRUE(has_words(both, "[N m]")) << torque;
+    EXPECT_FALSE(has_words(both, "[rad]")) << torque;
+  }
+  EXPECT_TRUE(has_words(page(two, start, "[0, '-3*q2']"), "[rad]")) << "negative control: a spring alone";
+  EXPECT_TRUE(has_words(page(two, "{q: [0.5, 0.5]}", "['-2*q1', '-3*q2']"), "[rad]"));
+}
+
+// Spirals end at their link and at their pin however often they are wound up or unwound, in pieces that look round.
+TEST(SpringLayer, HoldsSpiralsOfManyTurnsAtBothEnds) {
+  const PageTurn turn{{0, 0}, {1, 0}, {0, 1}};
+  const Color red{1, 0, 0, 1};
+  const auto spiral = [&](double q) {
+    Picture picture;
+    draw_spiral(picture, turn, q, 0, 1, red, 0, {});
+    return test::all_of<Trail>(picture);
+  };
+  const auto turned = [](const std::vector<Trail>& parts) {
+    double sum = 0, most = 0;
+    for (const Trail& part : parts)
+      for (std::size_t i = 1; i < part.points.size(); ++i) {
+        const Point a = part.points[i - 1].p, b = part.points[i].p;
+        sum += std::abs(std::atan2(cross(a, b), dot(a, b)));
+        most = std::max(most, std::abs(std::atan2(cross(a, b), dot(a, b))));
+      }
+    EXPECT_LT(most, 0.16);
+    return sum;
+  };
+  for (const double q : {-1e4, -1000.3, -40.0, -13.0, -12.0, -3.0, 0.0, 3.0, 15.0, 15.8, 40.0, 777.7}) {
+    const std::vector<Trail> parts = spiral(q);
+    const bool has_more = std::abs(5 * std::numbers::pi - q) > 9 * std::numbers::pi;
+    ASSERT_EQ(parts.size(), has_more ? 2u : 1u) << q;
+    const Point in = parts.front().points.front().p, out = parts.back().points.back().p;
+    EXPECT_NEAR(std::remainder(std::atan2(in.y, in.x) - q, 2 * std::numbers::pi), 0, kCauseRoundOff) << q;
+    EXPECT_NEAR(std::remainder(std::atan2(out.y, out.x) - std::numbers::pi, 2 * std::numbers::pi), 0, kCauseRoundOff) << q;
+    EXPECT_NEAR(norm(out), kSpiralOuter, kCauseRoundOff) << q;
+    EXPECT_LE(turned(parts), 9 * std::numbers::pi + kCauseRoundOff) << q;
+    // Its ends beside the gap fade, and those at link and pin do not.
+    if (has_more && q != -13) {
+      EXPECT_LT(parts.front().points.back().alpha, 0.35) << q;
+      EXPECT_LT(parts.back().points.front().alpha, 0.35) << q;
+    }
+    EXPECT_EQ(parts.front().points.front().alpha, 1) << q;
+    EXPECT_EQ(parts.back().points.back().alpha, 1) << q;
+  }
+  EXPECT_NEAR(turned(spiral(0)), 5 * std::numbers::pi, 1e-6) << "negative control: at rest it is whole";
 }
 
 // In a film words come and go within some frames; a picture alone has them in full.

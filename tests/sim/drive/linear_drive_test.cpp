@@ -86,6 +86,36 @@ TEST(LinearDrive, OfFeedbackFollowsItsReference) {
   EXPECT_TRUE(run.torque->reference_at(0.5, q));
 }
 
+// What is added at one joint takes nothing from another.
+TEST(LinearDrive, OfSumsIsDecidedForEachFreedom) {
+  Simulation run = run_of("rr", {}, 1);
+  Control control;
+  const auto with = [&](std::vector<double> kp, std::vector<double> kd, const char* plus1, const char* plus2) {
+    control.pd = Feedback{std::move(kp), std::move(kd), {{"0.2", {}}, {"0.5", {}}}, {}, {}, "", {}};
+    control.plus = {{plus1, {}}, {plus2, {}}};
+    run.torque = make_control(run.chain, control, {});
+    return linear_drives(run);
+  };
+  const auto apart = with({50, 0}, {5, 0}, "0", "-30*(q2-1)");
+  ASSERT_EQ(apart.size(), 2u);
+  EXPECT_TRUE(apart[0].follows && apart[0].whole && apart[0].stiffness == 50);
+  EXPECT_TRUE(!apart[1].follows && apart[1].whole && apart[1].rest == 1);
+  EXPECT_TRUE(run.torque->follows(0) && !run.torque->follows(1));
+  // Two springs at joint 1 have no rest that is one of theirs, but both joints follow.
+  const auto two = with({50, 20}, {5, 1}, "-30*(q1-1)", "0");
+  ASSERT_EQ(two.size(), 1u);
+  EXPECT_TRUE(two[0].freedom == 1 && two[0].whole);
+  EXPECT_TRUE(run.torque->follows(0) && run.torque->follows(1));
+  // A damper beside it leaves a spring as a part.
+  const auto damped = with({50, 20}, {5, 1}, "-2*qd1", "sin(t)");
+  ASSERT_EQ(damped.size(), 2u);
+  EXPECT_TRUE(damped[0].stiffness == 50 && damped[0].damping == 5 && !damped[0].whole);
+  EXPECT_FALSE(damped[1].whole) << "nothing tells what is added there";
+  EXPECT_TRUE(with({50, 50}, {0, 0}, "-q1", "-q2").empty()) << "negative control";
+  with({-50, 0}, {5, 1}, "0", "0");
+  EXPECT_TRUE(!run.torque->follows(0) && run.torque->follows(1)) << "what pushes away is not followed";
+}
+
 TEST(LinearDrive, IsNoneWhereItsTorqueMayBeCut) {
   Simulation run = run_of("rr", {"-20*q1", "-4*q2"}, 1);
   run.chain.bodies[1].joint.limit.effort = 5;
