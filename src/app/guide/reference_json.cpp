@@ -102,6 +102,7 @@ const std::vector<JsonReport>& json_reports() {
       {"ellipse", with(kFiles, {{"reading, shape, unit", "of the ellipses; not with --joint-space"}, {"poses", "[{t, q, point, Lambda_inv, Lambda, mass_along, eigenvalues, semi_axes, ..}]; mass_along: 1 / Lambda_inv_ii, what a force along each axis moves"}})},
       {"chart", with(kFiles, {{"scene, machine", "what was measured where"},
                               {"warnings", "what speaks against judging by the end of the run; []"},
+                              {"duration, judged_until", "of the run; less where no run of these follows the motion to its end: the part that is judged, s"},
                               {"reference, error, qd_scale, judged", "what errors are measured by; judged: which one the chart shows, error or energy_error"},
                               {"units", "of these numbers, by their keys"},
                               {"choice", "that of `method: auto`"},

@@ -124,7 +124,8 @@ Composition with_readable_words(const Scene& page, const Shown& film, const Stor
       Layers layers = layers_of(*stage);
       FilmSheet sheet(*stage, layers, story, room);
       if (next == nullptr && is_cramped(sheet, shown))
-        throw CrampedPlots(ExitCode::bad_input, std::to_string(sheet.plots.size()) + " plots have no room on this page: plot less, lower text_scale, or take a larger or a wider page", page.place_of("plot"));
+        throw CrampedPlots(ExitCode::bad_input, (sheet.plots.size() == 1 ? "the plot has" : std::to_string(sheet.plots.size()) + " plots have") +
+                                                    std::string(" no room on this page: plot less, lower text_scale, or take a larger or a wider page"), page.place_of("plot"));
       const bool has_room = (!is_enlarged || sheet.sheet.scene.height() >= kLeastScene) && !is_cramped(sheet, shown);
       if (next == nullptr || has_room) {
         FilmView view(*stage, layers, sheet);
