@@ -22,7 +22,7 @@ constexpr double kHidden = 9, kPoorGround = 4, kWorsePlace = 0.12, kChange = 1.2
 constexpr double kStandsLonger = 0.5;  // s, for which the first and the last frame of a film count more: as posters and when it is over
 constexpr double kWorseOfMany = 0.005;  // the same of a place of words with a leader, which have many
 constexpr double kCrossedByLeader = 0.3;  // the same for each piece of what is drawn that its line crosses
-constexpr double kFirm = 4;  // times that, to a tie: one on which no word may stand, as a link
+constexpr double kFirm = 4;  // times that, to a name that rather goes than is led far: one on which no word may stand, as a link
 constexpr double kEndOfLeader = 0.03;  // units of H: what lies so near to its end is what it leads to
 constexpr int kMostCrossed = 5;
 constexpr double kMiddleOfLetters = 0.3;  // of their size, above the line and to either side
@@ -139,7 +139,7 @@ double cost_of_leader(const Leader& leader, const Rect& box, const std::vector<B
 
 double cost_of_tie(const Tie& tie, const Rect& box, const std::vector<Blocked>& near) {
   const std::optional<TieLine> line = line_of(tie, box);
-  return line ? cost_of_line(line->from, line->to, near, kFirm) : 0;
+  return line ? cost_of_line(line->from, line->to, near, tie.cost > 0 ? kFirm : 1) : 0;
 }
 
 bool reaches(const Rect& box, const Obstacle& obstacle) {
