@@ -32,7 +32,6 @@ constexpr double kSmallerWords = 0.93;  // from trial to trial
 constexpr double kLowPanel = 0.4;      // of the page's height: so low panels take the rows of formulas above them
 constexpr double kLargerInGrid = 1.1;  // times the scale, for a plot in the grid of its panels
 constexpr double kFrameInGrid = 0.5;   // ... of the area of its frame
-constexpr double kLeastFrame = 1.5;    // words high: of a plot whose numbers do not lie on one another
 constexpr int kRoomTrials = 4;         // each finds most of what is lacking
 
 // The first in the order that the page still shows; null where none is left.
@@ -106,7 +105,7 @@ struct CrampedPlots : Error {
 
 // On paper pages become as high as they must be.
 bool is_cramped(const FilmSheet& sheet, const Scene& page) {
-  const double least = kLeastFrame * scaled(kSmallestText, page.text_scale);
+  const double least = least_frame(page.text_scale);
   return !(page.video.least_text > 0) && std::ranges::any_of(sheet.plots, [least](const PlotStrip& plot) { return !(plot.frame().box.height() >= least); });
 }
 

@@ -27,7 +27,8 @@ constexpr double kPlotLabelGap = 0.012;
 constexpr double kConstantSpan = 1e-6, kShareOfConstant = 0.5;  // of its size, of what the eye takes for one; of other plots' height
 constexpr std::size_t kMostOnConstant = 2;  // names of curves that have room beside so low a plot
 constexpr double kMostBelow = 0.45;   // of the room, whatever is asked for
-constexpr double kLeastShared = 0.9;     // of their words, of frames that are shared by what they show
+constexpr double kLeastFrame = 1.5;   // words high
+constexpr double kFrameOfConstant = 2;  // times that, of one that is lower than others
 constexpr double kWordsOfPlot = 0.075;  // units of H: what title and numbers take of a plot's height at text_scale 1
 constexpr double kNoteGap = 0.02;
 constexpr double kToldOfSpan = 100;     // parts of an axis that the number at a curve's end tells
@@ -442,14 +443,19 @@ double share_of_height(const StripData& data) {
   return widest <= kConstantSpan * size && labels_of(data).size() <= kMostOnConstant ? kShareOfConstant : 1;
 }
 
+double least_frame(double text_scale) {
+  return kLeastFrame * scaled(size::kTick, text_scale);
+}
+
 namespace {
 
-// One above the other, from the top down. Each has its title and numbers; what is left is shared, equally where the least would be none.
+// One above the other, from the top down. Each has its title and numbers; what is left is shared, equally where the least would be lower than its numbers.
 void add_column(std::vector<Rect>& plots, const Rect& all, int count, double text_scale, const std::vector<double>& shares) {
   const double room = all.height() - size::kGutter * (count - 1), words = std::min(kWordsOfPlot * text_scale, 0.6 * room / count);
-  const bool is_equal = shares.empty() || room / count - words < kLeastShared * words;
   double sum = 0;
-  for (int i = 0; i < count; ++i) sum += is_equal ? 1 : shares[std::size_t(i)];
+  for (const double share : shares) sum += share;
+  const bool is_equal = shares.empty() || (room - count * words) * std::ranges::min(shares) / sum < kFrameOfConstant * least_frame(text_scale);
+  if (is_equal) sum = count;
   double y1 = all.y1;
   for (int i = 0; i < count; ++i) {
     const double height = words + (room - count * words) * (is_equal ? 1 : shares[std::size_t(i)]) / sum;

@@ -91,6 +91,9 @@ struct StripRun {
 // Plot i of all runs in one; with several runs colours tell runs apart, dashes what is plotted.
 StripData strip_data(const std::vector<StripRun>& runs, std::size_t i, double end, const Theme& theme);
 
+// Height of a frame whose numbers do not lie on one another, units of H.
+double least_frame(double text_scale);
+
 // Where plots stand, and what they leave to the scene.
 enum class PlotPlace { below, right, stacked };  // stacked: below, one above the other
 struct PlotAreas {
